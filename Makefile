@@ -1,0 +1,165 @@
+# lux4, the lighting-design simulator.  `make help` lists the targets.
+#
+# Sources are found, not listed: every .c and .cpp of the folders below goes into liblux4.a;
+# every tests/*/test_*.c, bench_*.c and fuzz_*.c is a program of its own, linked with it and with
+# tests/*.c. What needs OpenImageIO is a shared object that is loaded when it is first asked for.
+# Nothing is written outside build/.
+#
+#   WIDTH=1 one ray at a time: the scalar baseline of every speed-up (also: 8, with AVX2)
+#   SAN=1   address and undefined-behaviour sanitizers     WERROR=1 warnings are errors
+#   DEBUG=1 -O1, for a debugger                            NATIVE=1 for this very processor
+#   V=1     show the commands                              CC=clang CXX=clang++
+
+VERSION := 0.1.0
+PREFIX  := /usr/local
+LAYERS  := core materials lights sky sim
+PKGS    := OpenEXR tinygltf yaml-0.1
+PLUGIN_PKGS := OpenImageIO
+TEST_PKGS   := cmocka
+DEBS    := gcc g++ pkg-config libopenexr-dev libtinygltf-dev libyaml-dev libopenimageio-dev libcmocka-dev
+BENCH_DEBS := libembree-dev
+WIDTH   := 4
+
+# ---- what to build with ---------------------------------------------------------------------
+
+CC  := gcc
+CXX := g++
+OPT := $(if $(SAN)$(DEBUG),-O1,-O2)
+ifdef NATIVE
+  OPT += -march=native
+else ifneq (,$(filter x86_64-%,$(shell $(CC) -dumpmachine 2>/dev/null)))
+  OPT += -march=x86-64-$(if $(filter 8,$(WIDTH)),v3,v2)
+endif
+OPT += $(if $(filter 1,$(WIDTH)),-fno-tree-vectorize -fno-tree-slp-vectorize)
+SANS := -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+SANS := $(if $(SAN),$(SANS))
+
+# No fused multiply-adds: the same numbers on every machine, whatever the width.
+FP   := -ffp-contract=off -fno-math-errno -fno-trapping-math
+WARN := -Wall -Wextra -Wshadow -Wundef -Wvla -Wdouble-promotion -Wpointer-arith -Wwrite-strings \
+        -Wcast-qual -Wformat=2 -Wno-missing-field-initializers -Wno-psabi $(if $(WERROR),-Werror)
+WARN_C := -Wconversion -Wstrict-prototypes -Wmissing-prototypes -Wold-style-definition \
+          -Wno-bool-operation   # ~(d > 0.0f) is a mask at every width
+
+# Targets that need no library: all others read what pkg-config says of the packages.
+ifneq (,$(filter-out help clean deps layers format format-check,$(or $(MAKECMDGOALS),all)))
+  include build/pkg.mk
+endif
+
+CPPFLAGS := -I. -MMD -MP -DPACKET_WIDTH=$(WIDTH) -DLUX4_VERSION='"$(VERSION)"' $(PKG_CFLAGS)
+CFLAGS   := -std=gnu17 -g $(OPT) $(FP) $(SANS) $(WARN) $(WARN_C)
+CXXFLAGS := -std=c++17 -g $(OPT) $(FP) $(SANS) $(WARN)
+LDFLAGS  := $(SANS) -Wl,--as-needed
+LDLIBS   := $(PKG_LIBS) -lm -ldl -pthread
+
+# ---- what there is to build -----------------------------------------------------------------
+
+TOOL  := $(if $(findstring clang,$(CC)),clang-)
+B     := build/$(TOOL)$(if $(SAN),san,$(if $(DEBUG),debug,$(if $(NATIVE),native,release)))-$(WIDTH)
+SHIM  := core/image_oiio.cpp
+SRC   := $(filter-out sim/main.c $(SHIM),$(wildcard $(LAYERS:%=%/*.c) $(LAYERS:%=%/*.cpp)))
+AIDS  := $(wildcard tests/*.c)
+TESTS := $(patsubst %.c,$B/%,$(wildcard tests/*/test_*.c))
+LONG  := $(patsubst %.c,$B/%,$(wildcard tests/*/long_*.c))
+BENCH := $(patsubst %.c,$B/%,$(wildcard tests/bench/bench_*.c))
+PROG  := $(patsubst sim/main.c,$B/lux4,$(wildcard sim/main.c))
+PLUG  := $(patsubst $(SHIM),$B/liblux4_oiio.so,$(wildcard $(SHIM)))
+TEXT  := $(wildcard $(foreach d,$(LAYERS) tests tests/* data/*,$d/*.[ch] $d/*.cpp))
+
+MAKEFLAGS += --no-builtin-rules --no-print-directory
+Q         := $(if $V,,@)
+.DELETE_ON_ERROR:
+.SECONDARY:
+.PHONY: all check check-long check-width tests demo bench deps bench-deps install layers format \
+        format-check clean help FORCE
+
+## all: the library and the program (what plain `make` does)
+all: $B/liblux4.a $(PROG) $(PLUG)
+
+$B/liblux4.a: $(SRC:%=$B/%.o) $B/links
+	@echo "AR   $@"; rm -f $@
+	$Qar rcs $@ $(filter %.o,$^)
+
+$(PROG): $B/sim/main.c.o
+$(TESTS) $(LONG) $(BENCH): $B/%: $B/%.c.o $(AIDS:%=$B/%.o)
+$(TESTS) $(LONG) $(BENCH): private LDFLAGS += -Wl,--wrap=aligned_alloc
+$(TESTS) $(LONG) $(BENCH): private LDLIBS += $(TEST_LIBS)
+$(PROG) $(TESTS) $(LONG) $(BENCH): $B/liblux4.a $B/links
+	@echo "LD   $@"
+	$Q$(CXX) $(LDFLAGS) $(filter %.o,$^) $(filter %.a,$^) $(LDLIBS) -o $@
+
+$(PLUG): $(SHIM) $B/flags
+	@mkdir -p $(@D); echo "SO   $@"
+	$Q$(CXX) $(CPPFLAGS) $(PLUGIN_CFLAGS) $(CXXFLAGS) -fPIC -shared $(LDFLAGS) $< $(PLUGIN_LIBS) -o $@
+
+$B/%.c.o: %.c $B/flags
+	@mkdir -p $(@D); echo "CC   $<"
+	$Q$(CC) $(CPPFLAGS) $(CFLAGS) -c $< -o $@
+
+$B/%.cpp.o: %.cpp $B/flags
+	@mkdir -p $(@D); echo "CXX  $<"
+	$Q$(CXX) $(CPPFLAGS) $(CXXFLAGS) -c $< -o $@
+
+# Other flags, other objects; other sources or libraries, other programs.
+$B/flags: TELL = $(CC) $(CXX) $(CPPFLAGS) $(CFLAGS) $(CXXFLAGS)
+$B/links: TELL = $(CXX) $(LDFLAGS) $(LDLIBS) $(SRC) $(AIDS)
+$B/flags $B/links: FORCE
+	@mkdir -p $(@D); echo '$(subst ','\'',$(TELL))' | cmp -s - $@ || echo '$(subst ','\'',$(TELL))' > $@
+
+-include $(patsubst %,$B/%.d,$(SRC:=) $(AIDS) sim/main.c) $(addsuffix .c.d,$(TESTS) $(LONG) $(BENCH))
+-include $(PLUG:.so=.d)
+
+# What is missing is installed for check and demo, which set a machine up; else it is named.
+build/pkg.mk: Makefile
+	@mkdir -p $(@D); { command -v $(CC) && command -v $(CXX) && command -v pkg-config; } > /dev/null \
+	  && pkg-config --exists $(PKGS) $(PLUGIN_PKGS) $(TEST_PKGS) \
+	  || $(if $(filter check check-long demo,$(MAKECMDGOALS)),$(MAKE) deps,{ echo "lux4 needs packages that are not installed: run 'make deps'"; exit 1; })
+	@set -e; say() { printf '%s := %s\n' "$$1" "$$(pkg-config $$2)"; }; { \
+	  say PKG_CFLAGS "--cflags $(PKGS)"; say PKG_LIBS "--libs $(PKGS)"; \
+	  say PLUGIN_CFLAGS "--cflags $(PLUGIN_PKGS)"; say PLUGIN_LIBS "--libs $(PLUGIN_PKGS)"; \
+	  say TEST_LIBS "--libs $(TEST_PKGS)"; } > $@
+
+# ---- what to do with it ---------------------------------------------------------------------
+
+## check: every test at widths 4 and 1, and that no layer includes one above it
+check: layers
+	$Q$(MAKE) -j$$(nproc) tests WIDTH=4
+	$Q$(MAKE) -j$$(nproc) tests WIDTH=1
+	$Qtests/run build/release-4 build/release-1
+
+## tests: build the test programs of this width (check builds and runs them)
+tests: all $(TESTS)
+
+## check-long: what takes more than minutes: every float of every packet function, and the like
+check-long: all $(LONG)
+	$Qfor t in $(LONG); do $$t || exit 1; done
+
+## bench: rays per second, packets against one ray at a time, appended to build/bench.log
+bench: $(BENCH)
+	@{ echo "# $$(git describe --always --dirty 2>/dev/null) $(CC) $(OPT)"; \
+	  for b in $(BENCH); do $$b; done; } | tee -a build/bench.log
+
+## deps: install the packages this needs (Debian, Ubuntu; elsewhere: name them)
+deps:
+	@command -v apt-get > /dev/null || { echo "no apt-get here; lux4 needs (Debian's names): $(DEBS)"; exit 1; }
+	@sudo=$$([ $$(id -u) = 0 ] || echo sudo); set -x; $$sudo apt-get update && $$sudo env \
+	  DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $(DEBS)
+
+## layers: core < materials, lights < sky < sim (sky/ may include lights/light.h: the sun is a light)
+layers:
+	@! grep -nE '#include "(materials|lights|sky|sim)/' $(filter core/%,$(TEXT)) /dev/null
+	@! grep -nE '#include "(lights|sky|sim)/'           $(filter materials/%,$(TEXT)) /dev/null
+	@! grep -nE '#include "(materials|sky|sim)/'        $(filter lights/%,$(TEXT)) /dev/null
+	@! grep -nE '#include "(materials|lights|sim)/'     $(filter sky/%,$(TEXT)) /dev/null | grep -v '"lights/light.h"'
+
+## format, format-check: lay the sources out as .clang-format says; refuse what differs
+format: ; $Qclang-format -i $(TEXT)
+format-check: ; $Qclang-format --dry-run --Werror $(TEXT)
+
+## clean: remove build/
+clean: ; $Qrm -rf build
+
+## help: this list
+help:
+	@sed -n 's/^## \([a-z, -]*\): /\1\t/p' $(MAKEFILE_LIST) | awk -F'\t' '{ printf "  make %-22s %s\n", $$1, $$2 }'
+	@sed -n 's/^#   \([A-Z]*=[1c].*\)/  \1/p' $(MAKEFILE_LIST)

@@ -1,0 +1,62 @@
+/* core/image.h -- pictures: named channels of floats, and the files they are kept in.
+ *
+ * EXR goes through OpenEXR's C API (image_exr.c); every other format goes through OpenImageIO,
+ * which is loaded when the first such picture is asked for (image_oiio.cpp).
+ */
+#ifndef CORE_IMAGE_H
+#define CORE_IMAGE_H
+
+#include "core/arena.h"
+#include "core/error.h"
+#include "core/notice.h"
+
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct image_channel {
+    const char *name;    /* "R", "direct.Y", ...; in an EXR at most 255 bytes */
+    float *values;       /* width * height, the top row first, left to right */
+} image_channel;
+
+typedef enum attribute_type { ATTRIBUTE_STRING, ATTRIBUTE_FLOAT } attribute_type;
+
+typedef struct image_attribute {
+    const char *name; /* "whiteLuminance", "lux4:seed", ... */
+    attribute_type type;
+    const char *text;      /* of a string */
+    float number;          /* of a float */
+} image_attribute;
+
+typedef struct image {
+    int width, height; /* >= 1 */
+    int channel_count;
+    image_channel *channels;
+    int attribute_count;
+    image_attribute *attributes;
+} image;
+
+/* Writes an EXR: scanlines, ZIP, float channels, or half if `half` (values that half cannot hold
+ * are clamped and noticed). NaN or infinite values are an error: no such file is written. Every
+ * file carries the chromaticities of Rec. 709 with D65. Bytes depend on the contents alone. */
+bool image_write_exr(const char *path, const image *im, bool half, notices *n, lux_error *err);
+
+/* Reads any scanline or tiled single-part EXR into floats, with its string and float attributes. */
+bool image_read_exr(const char *path, arena *a, image *out, lux_error *err);
+
+/* Writes an 8-bit sRGB picture (PNG by its name) of width * height * 3 bytes, top row first. */
+bool image_write_rgb8(const char *path, int width, int height, const uint8_t *rgb, lux_error *err);
+
+/* The mean colour of a picture in any format OpenImageIO reads: linear Rec. 709 in mean[0..2]
+ * (8- and 16-bit pictures are taken as sRGB if `srgb`), alpha in mean[3]. From memory if bytes
+ * is not NULL (`path` then names it in errors), else from the file at path. */
+bool image_mean(const char *path, const void *bytes, size_t size, bool srgb, float mean[4],
+                lux_error *err);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

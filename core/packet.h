@@ -1,0 +1,178 @@
+/* core/packet.h -- the arithmetic of packets: PACKET_WIDTH rays side by side, one per lane.
+ *
+ *   vfloat, vint  a number per lane; take the plain operators:  0.5f * a + b
+ *   vuint         bits per lane: wraps around, shifts in zeros; for hashes and digits
+ *   vmask         a truth value per lane, as comparisons give:  (d > 0.0f) & active
+ *   vvec3         a 3-vector per lane, kept by component; takes the functions below
+ *
+ * One source serves every width, to the same bits. Four and eight lanes are vectors of the
+ * compiler; one lane is a plain float, and so the scalar code that every speed-up is measured
+ * against. Hence what holds at all widths is all that may be written elsewhere: masks join by
+ * & | ~ alone (truth is bit 0 of one lane, all bits of one in a vector), a choice is a
+ * vselect(), one lane is read by lane(), and casts go by name. Lanes never trap: a division
+ * by zero in a lane that a mask will drop is harmless.
+ */
+#ifndef CORE_PACKET_H
+#define CORE_PACKET_H
+
+#include "core/vec3.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <string.h>
+
+#ifndef PACKET_WIDTH
+#define PACKET_WIDTH 4
+#endif
+enum { LANES = PACKET_WIDTH };
+
+/* Types and casts. vas_ keeps the bits, vto_ the value: vto_int drops the fraction of an a
+ * within 2^31 of 0. lane(a, i) is a value of any of these types, not a place to write to. */
+#if PACKET_WIDTH == 1
+typedef float vfloat;
+typedef int32_t vint;
+typedef uint32_t vuint;
+typedef int32_t vmask;
+
+#define lane(a, i) ((void)(i), +(a))
+
+static inline vint vas_int(vfloat a)
+{
+    vint bits;
+    memcpy(&bits, &a, sizeof bits);
+    return bits;
+}
+static inline vfloat vas_float(vint bits)
+{
+    vfloat a;
+    memcpy(&a, &bits, sizeof a);
+    return a;
+}
+static inline vint vto_int(vfloat a) { return (vint)a; }
+static inline vint vsigned(vuint a) { return (vint)a; }
+static inline vuint vunsigned(vint a) { return (vuint)a; }
+static inline vfloat vto_float(vint a) { return (vfloat)a; }
+#else
+typedef float vfloat __attribute__((vector_size(4 * PACKET_WIDTH)));
+typedef int32_t vint __attribute__((vector_size(4 * PACKET_WIDTH)));
+typedef uint32_t vuint __attribute__((vector_size(4 * PACKET_WIDTH)));
+typedef int32_t vmask __attribute__((vector_size(4 * PACKET_WIDTH)));
+
+#define lane(a, i) (+(a)[i])
+
+static inline vint vas_int(vfloat a) { return (vint)a; }
+static inline vfloat vas_float(vint bits) { return (vfloat)bits; }
+static inline vint vto_int(vfloat a) { return __builtin_convertvector(a, vint); }
+static inline vint vsigned(vuint a) { return (vint)a; }
+static inline vuint vunsigned(vint a) { return (vuint)a; }
+static inline vfloat vto_float(vint a) { return __builtin_convertvector(a, vfloat); }
+#endif
+
+typedef struct vvec3 {
+    vfloat x, y, z;
+} vvec3;
+
+typedef vvec3 vrgb; /* x red, y green, z blue */
+
+#define ALL_LANES (~(vmask){ 0 })
+
+/* Numbers. vselect is a where m holds and b elsewhere; vkeep is a where m holds and +0
+ * elsewhere, whatever a was (NaN included). vsplat keeps the sign of -0. */
+#if PACKET_WIDTH == 1
+static inline vfloat vsplat(float a) { return a; }
+static inline vfloat vkeep(vmask m, vfloat a) { return (m & 1) ? a : 0.0f; }
+static inline vfloat vselect(vmask m, vfloat a, vfloat b) { return (m & 1) ? a : b; }
+#else
+static inline vfloat vsplat(float a) { return a - (vfloat){ 0 }; }
+static inline vfloat vkeep(vmask m, vfloat a) { return vas_float(m & vas_int(a)); }
+static inline vfloat vselect(vmask m, vfloat a, vfloat b)
+{
+    return vas_float((m & vas_int(a)) | (~m & vas_int(b)));
+}
+#endif
+static inline vfloat vabs(vfloat a) { return vas_float(vas_int(a) & INT32_MAX); }
+
+/* Lanes. vlane_index is 0, 1, 2, ...; vgather is table[index] of each lane, dead ones too. */
+#if PACKET_WIDTH == 1
+static inline vint vlane_index(void) { return 0; }
+static inline vfloat vgather(const float *table, vint index) { return table[index]; }
+#elif PACKET_WIDTH == 4
+static inline vint vlane_index(void) { return (vint){ 0, 1, 2, 3 }; }
+static inline vfloat vgather(const float *table, vint index)
+{
+    return (vfloat){ table[index[0]], table[index[1]], table[index[2]], table[index[3]] };
+}
+#elif PACKET_WIDTH == 8
+static inline vint vlane_index(void) { return (vint){ 0, 1, 2, 3, 4, 5, 6, 7 }; }
+static inline vfloat vgather(const float *table, vint index)
+{
+    vfloat a = { 0 };
+    for (int i = 0; i < LANES; i++)
+        a[i] = table[index[i]];
+    return a;
+}
+#else
+#error "PACKET_WIDTH is 1, 4 or 8"
+#endif
+
+/* What the compiler has no operator for. vmin is a < b ? a : b, and so b where either is NaN;
+ * vmax likewise. vbits puts lane i into bit i. No other file names an intrinsic. */
+#if PACKET_WIDTH == 4 && defined __SSE2__
+#include <immintrin.h>
+static inline vfloat vsqrt(vfloat a) { return _mm_sqrt_ps(a); }
+static inline vfloat vmin(vfloat a, vfloat b) { return _mm_min_ps(a, b); }
+static inline vfloat vmax(vfloat a, vfloat b) { return _mm_max_ps(a, b); }
+static inline int vbits(vmask m) { return _mm_movemask_ps((__m128)m); }
+#elif PACKET_WIDTH == 8 && defined __AVX2__
+#include <immintrin.h>
+static inline vfloat vsqrt(vfloat a) { return _mm256_sqrt_ps(a); }
+static inline vfloat vmin(vfloat a, vfloat b) { return _mm256_min_ps(a, b); }
+static inline vfloat vmax(vfloat a, vfloat b) { return _mm256_max_ps(a, b); }
+static inline int vbits(vmask m) { return _mm256_movemask_ps((__m256)m); }
+#else /* one lane, or another processor */
+static inline vfloat vsqrt(vfloat a)
+{
+    float root[LANES];
+    for (int i = 0; i < LANES; i++)
+        root[i] = __builtin_sqrtf(lane(a, i));
+    return vgather(root, vlane_index());
+}
+static inline vfloat vmin(vfloat a, vfloat b) { return vselect(a < b, a, b); }
+static inline vfloat vmax(vfloat a, vfloat b) { return vselect(a > b, a, b); }
+static inline int vbits(vmask m)
+{
+    int bits = 0;
+    for (int i = 0; i < LANES; i++)
+        bits |= (lane(m, i) & 1) << i;
+    return bits;
+}
+#endif
+
+/* Over all lanes; vsum adds from lane 0 upward. */
+static inline bool vany(vmask m) { return vbits(m) != 0; }
+static inline bool vall(vmask m) { return vbits(m) == (1 << LANES) - 1; }
+static inline float vsum(vfloat a)
+{
+    float sum = lane(a, 0);
+    for (int i = 1; i < LANES; i++)
+        sum += lane(a, i);
+    return sum;
+}
+
+/* Vectors. */
+static inline vvec3 vspread(vec3 a) { return (vvec3){ vsplat(a.x), vsplat(a.y), vsplat(a.z) }; }
+static inline vvec3 vadd(vvec3 a, vvec3 b) { return (vvec3){ a.x + b.x, a.y + b.y, a.z + b.z }; }
+static inline vvec3 vsub(vvec3 a, vvec3 b) { return (vvec3){ a.x - b.x, a.y - b.y, a.z - b.z }; }
+static inline vvec3 vscale(vvec3 a, vfloat s) { return (vvec3){ a.x * s, a.y * s, a.z * s }; }
+static inline vfloat vdot(vvec3 a, vvec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static inline vvec3 valong(vvec3 o, vvec3 d, vfloat t) { return vadd(o, vscale(d, t)); }
+static inline vvec3 vkeep3(vmask m, vvec3 a)
+{
+    return (vvec3){ vkeep(m, a.x), vkeep(m, a.y), vkeep(m, a.z) };
+}
+static inline vvec3 vcross(vvec3 a, vvec3 b)
+{
+    return (vvec3){ a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
+}
+
+#endif

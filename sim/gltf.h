@@ -1,0 +1,84 @@
+/* sim/gltf.h -- a glTF 2.0 file as lux4 needs it: checked, flattened, in our frame.
+ *
+ * Every number, index and size has been checked when this is handed out. World matrices take
+ * mesh coordinates to metres with x east, y north, z up (glTF's y is up: (x, y, z) -> (x, -z, y)).
+ */
+#ifndef SIM_GLTF_H
+#define SIM_GLTF_H
+
+#include "core/arena.h"
+#include "core/error.h"
+#include "core/mesh.h"
+#include "core/notice.h"
+#include "core/transform.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct gltf_material {
+    const char *name;      /* "" if it has none */
+    vec3 base_color;       /* linear, [0, 1]; textures as their mean, vertex colours left out */
+    float alpha;           /* of the base colour */
+    float metallic, roughness;
+    vec3 emission;         /* cd/m^2 in each channel (emissiveFactor, texture mean, strength) */
+    float transmission;    /* KHR_materials_transmission */
+    bool textured;         /* some texture was taken as its mean colour */
+    bool cut;              /* alphaMode is MASK or BLEND */
+} gltf_material;
+
+typedef struct gltf_mesh {
+    const char *name;
+    mesh triangles; /* of all its primitives; material: an index of gltf.materials */
+} gltf_mesh;
+
+/* A mesh in its place: a node, or one of a node's EXT_mesh_gpu_instancing. */
+typedef struct gltf_placement {
+    uint32_t mesh, node;
+    transform place;
+} gltf_placement;
+
+typedef struct gltf_node {
+    const char *name;
+    transform place;
+} gltf_node;
+
+typedef struct gltf_camera {
+    const char *name; /* the camera's, or else its node's */
+    transform place;  /* looks along -z, +y up */
+    bool perspective;
+    double yfov, aspect;  /* rad, vertical; width / height or 0 if not said */
+    double xmag, ymag;    /* m, half width and height if orthographic */
+} gltf_camera;
+
+typedef enum gltf_light_kind { GLTF_POINT, GLTF_SPOT, GLTF_DIRECTIONAL } gltf_light_kind;
+
+typedef struct gltf_light {
+    const char *name; /* the light's, or else its node's */
+    gltf_light_kind kind;
+    transform place;   /* shines along -z */
+    vec3 color;        /* linear, >= 0 */
+    double intensity;  /* cd; lux if directional */
+    double inner, outer; /* rad */
+} gltf_light;
+
+typedef struct gltf {
+    uint32_t material_count, mesh_count, placement_count, node_count, camera_count, light_count;
+    gltf_material *materials; /* the last one is glTF's default material */
+    gltf_mesh *meshes;
+    gltf_placement *placements;
+    gltf_node *nodes; /* those of the scene */
+    gltf_camera *cameras;
+    gltf_light *lights; /* KHR_lights_punctual */
+} gltf;
+
+/* Reads the .gltf or .glb at path, and the files in its folder that it names, into a. NULL, with
+ * *err naming the file and the JSON pointer, or the offset, of what is wrong. What is left out
+ * or read as something simpler is noticed. */
+const gltf *gltf_read(arena *a, const char *path, notices *n, lux_error *err);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,64 @@
+/* materials/material.c -- packets of several materials: those lanes that agree go together. */
+#include "materials/material.h"
+
+/* The lanes of todo that are of the same material as its first; takes them out of todo. */
+static vmask take_first(vint index, vmask *todo, int *material_index)
+{
+    int first       = __builtin_ctz((unsigned)vbits(*todo));
+    *material_index = lane(index, first);
+    vmask same      = *todo & (index == *material_index);
+    *todo           = *todo & ~same;
+    return same;
+}
+
+static vrgb join(vrgb a, vrgb b) { return vadd(a, b); } /* of disjoint lanes, zero elsewhere */
+
+vmask materials_scatter(const material *const *all, vint index, const vvec3 *wo, const vvec3 *n,
+                        vfloat s, vfloat t, vmask active, vscatter *out)
+{
+    *out       = (vscatter){ 0 };
+    vmask goes = { 0 };
+    while (vany(active)) {
+        int m;
+        vmask same = take_first(index, &active, &m);
+        vscatter part;
+        goes        = goes | all[m]->type->scatter(all[m], wo, n, s, t, same, &part);
+        out->wi     = join(out->wi, part.wi);
+        out->weight = join(out->weight, part.weight);
+    }
+    return goes;
+}
+
+vrgb materials_reflect(const material *const *all, vint index, const vvec3 *wo, const vvec3 *wi,
+                       const vvec3 *n, vmask active)
+{
+    vrgb sum = { 0 };
+    while (vany(active)) {
+        int m;
+        vmask same = take_first(index, &active, &m);
+        sum        = join(sum, all[m]->type->reflect(all[m], wo, wi, n, same));
+    }
+    return sum;
+}
+
+vrgb materials_emission(const material *const *all, vint index, vmask active)
+{
+    vrgb sum = { 0 };
+    while (vany(active)) {
+        int m;
+        vmask same = take_first(index, &active, &m);
+        sum        = join(sum, vkeep3(same, vspread(all[m]->emission)));
+    }
+    return sum;
+}
+
+vrgb materials_albedo(const material *const *all, vint index, vmask active)
+{
+    vrgb sum = { 0 };
+    while (vany(active)) {
+        int m;
+        vmask same = take_first(index, &active, &m);
+        sum        = join(sum, vkeep3(same, vspread(all[m]->type->albedo(all[m]))));
+    }
+    return sum;
+}

@@ -1,0 +1,88 @@
+/* sim/scene_materials.c -- the materials of room and glTF files, and what the study says of them.
+ *
+ * A rough, non-metallic glTF material is matt: its base colour is its diffuse reflectance. What
+ * glTF says beyond that (metal, gloss, transmission) is left out until it is simulated, and the
+ * user is told: the base colour is then all that counts.
+ */
+#include "core/color.h"
+#include "sim/scene_build.h"
+
+static bool add(scene_build *b, const char *name, vec3 reflectance, vec3 emission)
+{
+    bool overridden = false;
+    for (int i = 0; i < b->study->material_count; i++) { /* the last match wins */
+        const study_material *m = &b->study->materials[i];
+        if (study_match(m->match, name)) {
+            reflectance = m->reflectance;
+            overridden  = true;
+        }
+    }
+    diffuse_desc d         = { reflectance, v3_scale(emission, 1.0f / (float)LUMENS_PER_WATT) };
+    const material **m     = list_new(&b->materials, b->a, const material *, b->err);
+    scene_material *info   = list_new(&b->material_info, b->a, scene_material, b->err);
+    const material *made   = m && info ? material_diffuse(b->a, &d, b->err) : NULL;
+    if (!made)
+        return false;
+    *m    = made;
+    *info = (scene_material){ name, reflectance, emission, overridden };
+    return true;
+}
+
+static void tell_what_is_left_out(scene_build *b, const char *file, const gltf_material *m)
+{
+    const char *name = m->name[0] ? m->name : "(unnamed)";
+    if (m->metallic > 0.0f || m->roughness < 0.5f)
+        notice_add(b->notices,
+                   "%s: material \"%s\": gloss and metal are not supported yet: taken as matt, its "
+                   "base colour as reflectance", file, name);
+    if (m->transmission > 0.0f || m->cut)
+        notice_add(b->notices, "%s: material \"%s\": transparency is not supported yet: taken as opaque",
+                   file, name);
+}
+
+/* Each pattern must match something: a misspelt one would be ignored in silence. */
+static bool all_patterns_match(scene_build *b)
+{
+    const scene_material *info = b->material_info.items;
+    for (int i = 0; i < b->study->material_count; i++) {
+        const study_material *m = &b->study->materials[i];
+        bool found              = false;
+        for (size_t k = 0; k < b->material_info.count && !found; k++)
+            found = study_match(m->match, info[k].name);
+        if (!found)
+            return study_failed(b->study, m->where, b->err, ERR_ARGUMENT,
+                                "`%s` matches no material (lux4 check lists them)", m->match);
+    }
+    return true;
+}
+
+bool build_materials(scene_build *b)
+{
+    const study *s  = b->study;
+    uint32_t *first = arena_array(b->a, uint32_t, (size_t)s->scene_count + 1, b->err);
+    if (!first)
+        return false;
+    if (s->room.given && !(add(b, "room: ceiling", s->room.ceiling, (vec3){ 0 }) &&
+                           add(b, "room: walls", s->room.walls, (vec3){ 0 }) &&
+                           add(b, "room: floor", s->room.floor, (vec3){ 0 })))
+        return false;
+    for (int i = 0; i < s->scene_count; i++) {
+        bool again = false;
+        for (int j = 0; j < i && !again; j++)
+            if (b->files[j] == b->files[i]) {
+                first[i] = first[j];
+                again    = true;
+            }
+        if (again)
+            continue;
+        first[i] = (uint32_t)b->materials.count;
+        for (uint32_t k = 0; k < b->files[i]->material_count; k++) {
+            const gltf_material *m = &b->files[i]->materials[k];
+            if (!add(b, m->name, m->base_color, m->emission))
+                return false;
+            tell_what_is_left_out(b, s->scenes[i].file, m);
+        }
+    }
+    b->first_material = first;
+    return all_patterns_match(b);
+}

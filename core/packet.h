@@ -90,9 +90,23 @@ static inline vfloat vselect(vmask m, vfloat a, vfloat b)
     return vas_float((m & vas_int(a)) | (~m & vas_int(b)));
 }
 #endif
+static inline vint vselect_int(vmask m, vint a, vint b)
+{
+    return vas_int(vselect(m, vas_float(a), vas_float(b)));
+}
+static inline vint vkeep_int(vmask m, vint a) { return vas_int(vkeep(m, vas_float(a))); }
+static inline vint vsplat_int(int32_t a) { return a + (vint){ 0 }; }
 static inline vfloat vabs(vfloat a) { return vas_float(vas_int(a) & INT32_MAX); }
+static inline vfloat vcopysign(vfloat size, vfloat sign)
+{
+    return vas_float((vas_int(size) & INT32_MAX) | (vas_int(sign) & INT32_MIN));
+}
+static inline vfloat vlerp(vfloat a, vfloat b, vfloat t) { return (1.0f - t) * a + t * b; }
 
-/* Lanes. vlane_index is 0, 1, 2, ...; vgather is table[index] of each lane, dead ones too. */
+/* Lanes. vlane_index is 0, 1, 2, ...; vgather is table[index] of each lane, dead ones too: so
+ * that dead lanes read nothing outside of the table, give them an index that is in it, 0 by
+ * vkeep_int(active, index). vload and vstore take LANES numbers one after the other, at any
+ * alignment. */
 #if PACKET_WIDTH == 1
 static inline vint vlane_index(void) { return 0; }
 static inline vfloat vgather(const float *table, vint index) { return table[index]; }
@@ -115,17 +129,50 @@ static inline vfloat vgather(const float *table, vint index)
 #error "PACKET_WIDTH is 1, 4 or 8"
 #endif
 
+static inline vfloat vload(const float *from)
+{
+    vfloat a;
+    memcpy(&a, from, sizeof a);
+    return a;
+}
+static inline vint vload_int(const int32_t *from)
+{
+    vint a;
+    memcpy(&a, from, sizeof a);
+    return a;
+}
+static inline void vstore(float *to, vfloat a) { memcpy(to, &a, sizeof a); }
+static inline void vstore_int(int32_t *to, vint a) { memcpy(to, &a, sizeof a); }
+static inline vint vgather_int(const int32_t *table, vint index)
+{
+    int32_t at[LANES];
+    for (int i = 0; i < LANES; i++)
+        at[i] = table[lane(index, i)];
+    return vload_int(at);
+}
+
 /* What the compiler has no operator for. vmin is a < b ? a : b, and so b where either is NaN;
- * vmax likewise. vbits puts lane i into bit i. No other file names an intrinsic. */
-#if PACKET_WIDTH == 4 && defined __SSE2__
+ * vmax likewise. vfloor and vround (halves go to even) keep NaN, infinities and the sign of -0.
+ * vbits puts lane i into bit i. No other file names an intrinsic. */
+#if PACKET_WIDTH == 4 && defined __SSE4_1__
 #include <immintrin.h>
 static inline vfloat vsqrt(vfloat a) { return _mm_sqrt_ps(a); }
+static inline vfloat vfloor(vfloat a) { return _mm_floor_ps(a); }
+static inline vfloat vround(vfloat a)
+{
+    return _mm_round_ps(a, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+}
 static inline vfloat vmin(vfloat a, vfloat b) { return _mm_min_ps(a, b); }
 static inline vfloat vmax(vfloat a, vfloat b) { return _mm_max_ps(a, b); }
 static inline int vbits(vmask m) { return _mm_movemask_ps((__m128)m); }
 #elif PACKET_WIDTH == 8 && defined __AVX2__
 #include <immintrin.h>
 static inline vfloat vsqrt(vfloat a) { return _mm256_sqrt_ps(a); }
+static inline vfloat vfloor(vfloat a) { return _mm256_floor_ps(a); }
+static inline vfloat vround(vfloat a)
+{
+    return _mm256_round_ps(a, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+}
 static inline vfloat vmin(vfloat a, vfloat b) { return _mm256_min_ps(a, b); }
 static inline vfloat vmax(vfloat a, vfloat b) { return _mm256_max_ps(a, b); }
 static inline int vbits(vmask m) { return _mm256_movemask_ps((__m256)m); }
@@ -135,7 +182,21 @@ static inline vfloat vsqrt(vfloat a)
     float root[LANES];
     for (int i = 0; i < LANES; i++)
         root[i] = __builtin_sqrtf(lane(a, i));
-    return vgather(root, vlane_index());
+    return vload(root);
+}
+static inline vfloat vfloor(vfloat a)
+{
+    float whole[LANES];
+    for (int i = 0; i < LANES; i++)
+        whole[i] = __builtin_floorf(lane(a, i));
+    return vload(whole);
+}
+static inline vfloat vround(vfloat a)
+{
+    float whole[LANES];
+    for (int i = 0; i < LANES; i++)
+        whole[i] = __builtin_rintf(lane(a, i));
+    return vload(whole);
 }
 static inline vfloat vmin(vfloat a, vfloat b) { return vselect(a < b, a, b); }
 static inline vfloat vmax(vfloat a, vfloat b) { return vselect(a > b, a, b); }
@@ -163,6 +224,7 @@ static inline float vsum(vfloat a)
 static inline vvec3 vspread(vec3 a) { return (vvec3){ vsplat(a.x), vsplat(a.y), vsplat(a.z) }; }
 static inline vvec3 vadd(vvec3 a, vvec3 b) { return (vvec3){ a.x + b.x, a.y + b.y, a.z + b.z }; }
 static inline vvec3 vsub(vvec3 a, vvec3 b) { return (vvec3){ a.x - b.x, a.y - b.y, a.z - b.z }; }
+static inline vvec3 vneg(vvec3 a) { return (vvec3){ -a.x, -a.y, -a.z }; }
 static inline vvec3 vscale(vvec3 a, vfloat s) { return (vvec3){ a.x * s, a.y * s, a.z * s }; }
 static inline vfloat vdot(vvec3 a, vvec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 static inline vvec3 valong(vvec3 o, vvec3 d, vfloat t) { return vadd(o, vscale(d, t)); }
@@ -170,9 +232,30 @@ static inline vvec3 vkeep3(vmask m, vvec3 a)
 {
     return (vvec3){ vkeep(m, a.x), vkeep(m, a.y), vkeep(m, a.z) };
 }
+static inline vvec3 vselect3(vmask m, vvec3 a, vvec3 b)
+{
+    return (vvec3){ vselect(m, a.x, b.x), vselect(m, a.y, b.y), vselect(m, a.z, b.z) };
+}
 static inline vvec3 vcross(vvec3 a, vvec3 b)
 {
     return (vvec3){ a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
+}
+
+/* For lengths from 1e-18 to 1e18: squares of others leave the range of a float, and (as 0 does)
+ * vnormalize may give NaN or 0. */
+static inline vfloat vlength(vvec3 a) { return vsqrt(vdot(a, a)); }
+static inline vvec3 vnormalize(vvec3 a) { return vscale(a, 1.0f / vlength(a)); }
+
+/* Two unit vectors that with the unit vector n make a right-handed frame (u, v, n), without a
+ * branch and without a bad direction (Duff et al., "Building an Orthonormal Basis, Revisited",
+ * JCGT 6(1) 2017). They turn all at once where n.z changes its sign. */
+static inline void vframe(vvec3 n, vvec3 *u, vvec3 *v)
+{
+    vfloat sign = vcopysign(vsplat(1.0f), n.z);
+    vfloat a    = -1.0f / (sign + n.z);
+    vfloat b    = n.x * n.y * a;
+    *u          = (vvec3){ 1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x };
+    *v          = (vvec3){ b, sign + n.y * n.y * a, -n.y };
 }
 
 #endif

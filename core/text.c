@@ -1,0 +1,55 @@
+/* core/text.c -- see text.h. */
+#define _GNU_SOURCE
+#include "core/text.h"
+
+#include <locale.h>
+#include <math.h>
+#include <stdlib.h>
+
+static bool digit(char c) { return c >= '0' && c <= '9'; }
+
+/* Behind the number that s begins with; NULL if it begins with none. */
+static const char *number_end(const char *s)
+{
+    int digits = 0;
+    s += *s == '+' || *s == '-';
+    for (; digit(*s); s++)
+        digits++;
+    s += *s == '.';
+    for (; digit(*s); s++)
+        digits++;
+    if (digits == 0)
+        return NULL;
+    if (*s == 'e' || *s == 'E') {
+        const char *exponent = s + 1 + (s[1] == '+' || s[1] == '-');
+        if (digit(*exponent))
+            for (s = exponent; digit(*s);)
+                s++;
+    }
+    return s;
+}
+
+bool text_number(const char *s, const char **end, double *out)
+{
+    /* strtod takes no more than what was found: all forms found are its own, and it stops where
+     * they stop, except in the hexadecimals: those end behind their first zero. */
+    const char *last = number_end(s);
+    if (!last)
+        return false;
+    const char *sign = s + (*s == '+' || *s == '-');
+    if (sign[0] == '0' && (sign[1] == 'x' || sign[1] == 'X')) {
+        *out = *s == '-' ? -0.0 : 0.0;
+    } else {
+        locale_t c = newlocale(LC_ALL_MASK, "C", NULL); /* glibc's own constant: cheap */
+        if (!c)
+            return false;
+        double value = strtod_l(s, NULL, c);
+        freelocale(c);
+        if (!isfinite(value))
+            return false;
+        *out = value;
+    }
+    if (end)
+        *end = last;
+    return true;
+}

@@ -1,0 +1,21 @@
+/* core/text.h -- numbers as people and files write them. */
+#ifndef CORE_TEXT_H
+#define CORE_TEXT_H
+
+#include <stdbool.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The decimal number that s begins with: sign, digits with at most one point among them, e or E
+ * with an exponent; no spaces before it, no hexadecimals, no "inf" or "nan", and the point is a
+ * point whatever the locale. False if there is none or if it is too large for a double; else
+ * *out is the nearest double and *end, unless NULL, the first byte behind the number. */
+bool text_number(const char *s, const char **end, double *out);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

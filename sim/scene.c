@@ -77,9 +77,9 @@ static bool any_glows(const scene_build *b)
     return false;
 }
 
-const scene *scene_new(arena *a, const study *study, int threads, notices *n, lux_error *err)
+const scene *scene_new(arena *a, const study *from, int threads, notices *n, lux_error *err)
 {
-    scene_build b = { .a = a, .study = study, .notices = n, .err = err };
+    scene_build b = { .a = a, .study = from, .notices = n, .err = err };
     scene *s      = arena_new(a, scene, err);
     if (!s || !read_files(&b) || !build_materials(&b) || !build_bounds(&b))
         return NULL;
@@ -87,7 +87,7 @@ const scene *scene_new(arena *a, const study *study, int threads, notices *n, lu
     if (!s->world || !build_lights(&b) || !build_cameras(&b))
         return NULL;
 
-    s->study          = study;
+    s->study          = from;
     s->centre         = b.centre;
     s->low            = b.low;
     s->high           = b.high;

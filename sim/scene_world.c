@@ -117,8 +117,8 @@ static bool bake(scene_build *b, baked *to, const mesh *m, const transform *plac
 static bool keep_mesh(scene_build *b, mesh *to, dvec3 *moved, const mesh *m, uint32_t first)
 {
     vec3 *positions    = arena_array(b->a, vec3, m->position_count, b->err);
-    uint32_t *material = arena_array(b->a, uint32_t, m->triangle_count, b->err);
-    if (!positions || !material)
+    uint32_t *made_of  = arena_array(b->a, uint32_t, m->triangle_count, b->err);
+    if (!positions || !made_of)
         return false;
     dvec3 low = { INFINITY, INFINITY, INFINITY }, high = { -INFINITY, -INFINITY, -INFINITY };
     for (uint32_t v = 0; v < m->position_count; v++) {
@@ -132,10 +132,10 @@ static bool keep_mesh(scene_build *b, mesh *to, dvec3 *moved, const mesh *m, uin
     for (uint32_t v = 0; v < m->position_count; v++)
         positions[v] = d3_to_float(d3_sub(d3_from(m->positions[v]), *moved));
     for (uint32_t t = 0; t < m->triangle_count; t++)
-        material[t] = first + (m->material ? m->material[t] : 0);
+        made_of[t] = first + (m->material ? m->material[t] : 0);
     *to           = *m;
     to->positions = positions;
-    to->material  = material;
+    to->material  = made_of;
     return true;
 }
 

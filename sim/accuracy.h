@@ -1,0 +1,80 @@
+/* sim/accuracy.h -- how many samples are enough, and how far off a result may be.
+ *
+ * Many unknowns (the illuminances of a grid's sensors, the luminances of a picture's pixels) are
+ * each the mean of random samples. Each unknown is estimated by SCRAMBLES independent scrambles
+ * of one low-discrepancy set, n samples each; their SCRAMBLES means m are independent and
+ * unbiased, so that
+ *
+ *     half width = t s / sqrt(SCRAMBLES),    s^2 = sum (m - mean)^2 / (SCRAMBLES - 1)
+ *
+ * with t the 97.5 % quantile of Student's distribution of SCRAMBLES - 1 degrees of freedom, is
+ * half of a 95 % confidence interval (Owen, "Monte Carlo theory, methods and examples", 17.2).
+ * n doubles from round to round: the few looks that this gives cost little of the confidence
+ * (measured in tests/physics/test_interval.c). An unknown is done when its half width is at most
+ * accuracy * max(|mean|, floor).
+ *
+ * Results depend on the seed and not on threads: rounds are common to all, samples are summed by
+ * number. Only a deadline, or the user's Ctrl-C, cuts a round short.
+ */
+#ifndef SIM_ACCURACY_H
+#define SIM_ACCURACY_H
+
+#include "core/arena.h"
+#include "core/error.h"
+#include "core/progress.h"
+
+#include <stdint.h>
+
+enum {
+    SCRAMBLES     = 16,
+    BUNDLE        = 1024,    /* samples that are asked for at once, at most */
+    MOST_CHANNELS = 16,
+    MOST_SAMPLES  = 1 << 20, /* a scramble: 16 million an unknown */
+};
+
+typedef struct sample_id {
+    uint32_t item, scramble, index; /* index of the sample in its scrambled set */
+} sample_id;
+
+/* Which mean sets the floor below which accuracy is not relative any more. */
+typedef enum floor_kind {
+    FLOOR_MEAN,     /* a tenth of the mean of all items */
+    FLOOR_LOG_MEAN, /* a tenth of the geometric mean of those above 0 */
+} floor_kind;
+
+typedef struct accuracy_desc {
+    int items, channels; /* channels <= MOST_CHANNELS; channel 0 is the one held to the accuracy */
+    const double *exact; /* what is known of channel 0 besides, an item; NULL: 0 */
+    double accuracy;     /* > 0, relative */
+    double needed;       /* share of the items that must be done, (0, 1] */
+    floor_kind floor;
+    int first_samples;   /* a scramble, in the first round; a power of two <= BUNDLE */
+    int threads;         /* >= 1 */
+    double deadline;     /* s, on clock_seconds(); INFINITY: none. The first round is finished. */
+    progress *progress;  /* may be NULL; its stop ends the work */
+
+    /* Fills in values[channel * BUNDLE + i] of sample i, for i < count <= BUNDLE. */
+    void (*sample)(void *context, int thread, const sample_id *ids, int count, float *values);
+    void *context;
+} accuracy_desc;
+
+typedef struct accuracy_result {
+    double *mean;       /* items * channels, channel by channel; without `exact` */
+    double *half_width; /* an item, of channel 0 */
+    uint32_t *samples;  /* an item: all its samples */
+    int missed;         /* items that are not done */
+    double floor;       /* what `floor` came to */
+    double reached;     /* the accuracy that all but the items beyond `needed` have */
+    bool enough;        /* the share needed is done */
+    bool complete;      /* every item has at least its first round */
+    bool interrupted;   /* by stop */
+} accuracy_result;
+
+/* Samples until enough is done, or time or the user ends it. False, with *err, if memory is out.
+ * The result is allocated in a. */
+bool accuracy_run(arena *a, const accuracy_desc *d, accuracy_result *out, lux_error *err);
+
+/* Seconds since some moment, steadily growing. */
+double clock_seconds(void);
+
+#endif

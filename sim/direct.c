@@ -1,0 +1,123 @@
+/* sim/direct.c -- see direct.h. */
+#include "sim/direct.h"
+
+#include "core/color.h"
+
+struct direct_scratch {
+    vray rays[DIRECT_PACKETS];
+    vmask asked[DIRECT_PACKETS], blocked[DIRECT_PACKETS];
+    vlight_sample lamp[DIRECT_PACKETS];
+    int64_t ray_count;
+    vfloat share[]; /* a light */
+};
+
+direct_scratch *direct_scratch_new(arena *a, const scene *s, lux_error *err)
+{
+    size_t lights = (size_t)s->light_count;
+    return arena_alloc(a, 1, sizeof(direct_scratch) + lights * sizeof(vfloat),
+                       alignof(direct_scratch), err);
+}
+
+int64_t direct_rays(const direct_scratch *w) { return w->ray_count; }
+
+/* What lamp l gives each point before anything stands between; the lanes that it lights. */
+static vmask unshadowed(const light *l, const vsurface *at, vmask active, vlight_sample *out,
+                        vfloat *cosine)
+{
+    vfloat middle = vsplat(0.5f); /* no lamp of this version has places to draw */
+    vmask lit     = light_sample(l, &at->position, middle, middle, active, out);
+    *cosine       = vdot(out->wi, at->normal);
+    return lit & (*cosine > 0.0f);
+}
+
+/* A ray from the point to just before the lamp. */
+static vray shadow_ray(const vsurface *at, const vlight_sample *lamp)
+{
+    /* A lamp within a surface's rounding of that surface is not hidden by it */
+    const float before = 1.0f - 0x1p-18f;
+    return (vray){ .origin    = vray_start(at, &lamp->wi),
+                   .direction = lamp->wi,
+                   .reach     = lamp->dist * before };
+}
+
+static void trace_shadows(const scene *s, direct_scratch *w, int packets, ray_hint hint)
+{
+    for (int k = 0; k < packets; k++)
+        w->ray_count += __builtin_popcount((unsigned)vbits(w->asked[k]));
+    world_any_hit(s->world, w->rays, w->asked, packets, hint, w->blocked);
+}
+
+void direct_all(const scene *s, direct_scratch *w, const vsurface *at, const vmask *active,
+                int packets, vrgb *e)
+{
+    for (int k = 0; k < packets; k++)
+        e[k] = (vrgb){ 0 };
+    for (int l = 0; l < s->light_count; l++) {
+        vfloat cosine[DIRECT_PACKETS];
+        for (int k = 0; k < packets; k++) {
+            w->asked[k] = unshadowed(s->lights[l], &at[k], active[k], &w->lamp[k], &cosine[k]);
+            w->rays[k]  = shadow_ray(&at[k], &w->lamp[k]);
+        }
+        trace_shadows(s, w, packets, RAYS_COHERENT);
+        for (int k = 0; k < packets; k++) {
+            vmask lit = w->asked[k] & ~w->blocked[k];
+            e[k]      = vadd(e[k], vkeep3(lit, vscale(w->lamp[k].e, cosine[k])));
+        }
+    }
+}
+
+/* Which lamp each lane draws, -1 for none, and 1 / the probability of that. */
+static vint draw(const scene *s, direct_scratch *w, const vsurface *at, vmask active, vfloat pick,
+                 vfloat *inverse_probability)
+{
+    vfloat total = { 0 };
+    for (int l = 0; l < s->light_count; l++) {
+        vlight_sample lamp;
+        vfloat cosine;
+        vmask lit   = unshadowed(s->lights[l], at, active, &lamp, &cosine);
+        w->share[l] = vkeep(lit, vrgb_luminance(lamp.e) * cosine);
+        total       = total + w->share[l];
+    }
+
+    /* The first lamp at which the running sum reaches pick * total: it reaches all of it at last */
+    vint drawn   = vsplat_int(-1);
+    vfloat share = { 0 }, sum = { 0 }, threshold = pick * total;
+    for (int l = 0; l < s->light_count; l++) {
+        sum        = sum + w->share[l];
+        vmask this = active & (drawn < 0) & (w->share[l] > 0.0f) & (sum >= threshold);
+        drawn      = vselect_int(this, vsplat_int(l), drawn);
+        share      = vselect(this, w->share[l], share);
+    }
+    *inverse_probability = vkeep(drawn >= 0, total / share);
+    return drawn;
+}
+
+void direct_one(const scene *s, direct_scratch *w, const vsurface *at, const vmask *active,
+                const vfloat *pick, int packets, direct_pick *out)
+{
+    for (int k = 0; k < packets; k++) {
+        vfloat inverse_probability;
+        vint drawn = draw(s, w, &at[k], active[k], pick[k], &inverse_probability);
+        vmask left = active[k] & (drawn >= 0);
+        out[k]     = (direct_pick){ 0 };
+
+        vfloat reach = { 0 };
+        w->asked[k]  = left;
+        while (vany(left)) {
+            int l      = lane(drawn, __builtin_ctz((unsigned)vbits(left)));
+            vmask same = left & (drawn == l);
+            left       = left & ~same;
+
+            vlight_sample lamp;
+            vfloat cosine;
+            unshadowed(s->lights[l], &at[k], same, &lamp, &cosine);
+            out[k].wi = vadd(out[k].wi, lamp.wi);
+            out[k].e  = vadd(out[k].e, vscale(lamp.e, inverse_probability));
+            reach     = vselect(same, lamp.dist, reach);
+        }
+        w->rays[k] = shadow_ray(&at[k], &(vlight_sample){ .wi = out[k].wi, .dist = reach });
+    }
+    trace_shadows(s, w, packets, RAYS_INCOHERENT);
+    for (int k = 0; k < packets; k++)
+        out[k].e = vkeep3(w->asked[k] & ~w->blocked[k], out[k].e);
+}

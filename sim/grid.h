@@ -1,0 +1,63 @@
+/* sim/grid.h -- how much light arrives at the sensors of a grid. */
+#ifndef SIM_GRID_H
+#define SIM_GRID_H
+
+#include "core/progress.h"
+#include "sim/scene.h"
+
+/* What is asked of a run, grids and views alike. */
+typedef struct run_options {
+    double accuracy;  /* relative, > 0; NAN: the study's, or else the default of the command */
+    double deadline;  /* s, on clock_seconds(); INFINITY: none */
+    uint32_t seed;
+    int threads;      /* >= 1 */
+    bool direct_only;
+    progress *progress; /* may be NULL */
+} run_options;
+
+typedef struct grid_sensor {
+    dvec3 at;     /* m, in the user's frame */
+    dvec3 normal; /* unit */
+} grid_sensor;
+
+/* All light is in lux, maintenance applied. */
+typedef struct grid_result {
+    const study_grid *grid;
+    int columns, rows; /* sensors along u and v; a list of points has one row */
+    int sensor_count;
+    const grid_sensor *sensors; /* x fastest: row * columns + column */
+    double *illuminance, *direct, *indirect, *half_width; /* lx, a sensor */
+
+    double average, minimum, maximum, uniformity; /* lx, lx, lx; minimum / average, 0 if dark */
+    double average_half_width;                    /* lx: mean of half_width */
+    double worst_half_width; /* relative to max(illuminance, a tenth of the average) */
+    double asked;            /* the accuracy that was asked for */
+    int missed;              /* sensors whose half width is beyond it */
+    bool enough;             /* the accuracy asked for is reached */
+    bool interrupted;        /* the user stopped it; what is here is complete all the same */
+    bool interval_valid;     /* no path class was left to chance */
+    double seconds;
+    int64_t rays;
+} grid_result;
+
+enum { GRID_DEFAULT_PERCENT = 2 };
+
+/* The sensors of a grid in a, in rows and columns. False, with *err, for a bad points file. */
+bool grid_sensors(arena *a, const study_grid *g, grid_result *out, lux_error *err);
+
+/* Runs grid g of the scene's study. False, with *err, if memory is out, a points file is bad, or
+ * (ERR_INTERRUPTED) the user stopped it before there was anything to tell. */
+bool grid_run(arena *a, const scene *s, const study_grid *g, const run_options *o,
+              grid_result *out, lux_error *err);
+
+/* One requirement of the study against what was got. */
+typedef struct grid_requirement {
+    const char *name; /* "average", ... */
+    const char *unit; /* "lx" or "" */
+    double asked, got;
+    bool met;
+} grid_requirement;
+enum { MOST_REQUIREMENTS = 3 };
+int grid_requirements(const grid_result *r, grid_requirement out[MOST_REQUIREMENTS]);
+
+#endif

@@ -1,0 +1,17 @@
+/* sim/grid_write.h -- the result of a grid as files: a table (CSV) and a picture (EXR). */
+#ifndef SIM_GRID_WRITE_H
+#define SIM_GRID_WRITE_H
+
+#include "core/notice.h"
+#include "sim/grid.h"
+#include "sim/output.h"
+
+/* A row a sensor: x,y,z,nx,ny,nz to 12 digits, illuminance_lx,direct_lx,indirect_lx,half_width_lx
+ * to 9. A run that was interrupted ends with a line "# partial: ...". */
+bool grid_write_csv(const char *path, const grid_result *r, lux_error *err);
+
+/* A pixel a sensor, the top row has the largest v: Y, direct.Y, indirect.Y, halfWidth.Y in lux. */
+bool grid_write_exr(const char *path, const scene *s, const grid_result *r, notices *n,
+                    lux_error *err);
+
+#endif

@@ -1,0 +1,32 @@
+/* sim/output.h -- where results go, and which existing files may make room for them.
+ *
+ * Results go into the folder that the user names, or else into out/ beside the study. A file
+ * that is there already is refused, unless the user says --overwrite or the same study made it in
+ * its own default folder: every EXR names its study, and a CSV lies beside its EXR.
+ */
+#ifndef SIM_OUTPUT_H
+#define SIM_OUTPUT_H
+
+#include "core/arena.h"
+#include "core/error.h"
+#include "sim/study.h"
+
+typedef struct output_place {
+    const char *folder; /* NULL: the default */
+    bool overwrite;
+} output_place;
+
+/* FOLDER/NAME.EXT in a. */
+char *output_path(arena *a, const study *s, const output_place *o, const char *name,
+                  const char *extension, lux_error *err);
+
+/* Makes the folder, and refuses (ERR_ARGUMENT) if NAME with any of the extensions may not be
+ * written: it is there and not ours to replace, or it is no regular file. Call it before the
+ * work, so that no result is computed that has no place. */
+bool output_check(const study *s, const output_place *o, const char *name,
+                  const char *const *extensions, int count, lux_error *err);
+
+/* The study's file name without its folders: what an EXR says made it. */
+const char *output_study_name(const study *s);
+
+#endif

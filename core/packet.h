@@ -96,6 +96,7 @@ static inline vint vselect_int(vmask m, vint a, vint b)
 }
 static inline vint vkeep_int(vmask m, vint a) { return vas_int(vkeep(m, vas_float(a))); }
 static inline vint vsplat_int(int32_t a) { return a + (vint){ 0 }; }
+static inline vuint vsplat_uint(uint32_t a) { return a + (vuint){ 0 }; }
 static inline vfloat vabs(vfloat a) { return vas_float(vas_int(a) & INT32_MAX); }
 static inline vfloat vcopysign(vfloat size, vfloat sign)
 {
@@ -153,7 +154,8 @@ static inline vint vgather_int(const int32_t *table, vint index)
 
 /* What the compiler has no operator for. vmin is a < b ? a : b, and so b where either is NaN;
  * vmax likewise. vfloor and vround (halves go to even) keep NaN, infinities and the sign of -0.
- * vbits puts lane i into bit i. No other file names an intrinsic. */
+ * vbits puts lane i into bit i; vreverse_bits makes bit 0 of each lane its bit 31, and so on.
+ * No other file names an intrinsic. */
 #if PACKET_WIDTH == 4 && defined __SSE4_1__
 #include <immintrin.h>
 static inline vfloat vsqrt(vfloat a) { return _mm_sqrt_ps(a); }
@@ -165,6 +167,11 @@ static inline vfloat vround(vfloat a)
 static inline vfloat vmin(vfloat a, vfloat b) { return _mm_min_ps(a, b); }
 static inline vfloat vmax(vfloat a, vfloat b) { return _mm_max_ps(a, b); }
 static inline int vbits(vmask m) { return _mm_movemask_ps((__m128)m); }
+static inline vuint vreverse_bytes(vuint a)
+{
+    const __m128i order = _mm_set_epi8(12, 13, 14, 15, 8, 9, 10, 11, 4, 5, 6, 7, 0, 1, 2, 3);
+    return (vuint)_mm_shuffle_epi8((__m128i)a, order);
+}
 #elif PACKET_WIDTH == 8 && defined __AVX2__
 #include <immintrin.h>
 static inline vfloat vsqrt(vfloat a) { return _mm256_sqrt_ps(a); }
@@ -176,6 +183,11 @@ static inline vfloat vround(vfloat a)
 static inline vfloat vmin(vfloat a, vfloat b) { return _mm256_min_ps(a, b); }
 static inline vfloat vmax(vfloat a, vfloat b) { return _mm256_max_ps(a, b); }
 static inline int vbits(vmask m) { return _mm256_movemask_ps((__m256)m); }
+static inline vuint vreverse_bytes(vuint a)
+{
+    const __m128i order = _mm_set_epi8(12, 13, 14, 15, 8, 9, 10, 11, 4, 5, 6, 7, 0, 1, 2, 3);
+    return (vuint)_mm256_shuffle_epi8((__m256i)a, _mm256_broadcastsi128_si256(order));
+}
 #else /* one lane, or another processor */
 static inline vfloat vsqrt(vfloat a)
 {
@@ -207,7 +219,20 @@ static inline int vbits(vmask m)
         bits |= (lane(m, i) & 1) << i;
     return bits;
 }
+static inline vuint vreverse_bytes(vuint a)
+{
+    a = (a >> 16) | (a << 16);
+    return ((a >> 8) & 0x00ff00ff) | ((a & 0x00ff00ff) << 8);
+}
 #endif
+
+static inline vuint vreverse_bits(vuint a)
+{
+    a = vreverse_bytes(a);
+    a = ((a >> 4) & 0x0f0f0f0f) | ((a & 0x0f0f0f0f) << 4);
+    a = ((a >> 2) & 0x33333333) | ((a & 0x33333333) << 2);
+    return ((a >> 1) & 0x55555555) | ((a & 0x55555555) << 1);
+}
 
 /* Over all lanes; vsum adds from lane 0 upward. */
 static inline bool vany(vmask m) { return vbits(m) != 0; }

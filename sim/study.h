@@ -20,8 +20,8 @@ typedef struct study_where {
 typedef struct study_room {
     study_where where;
     bool given;
-    dvec3 size;                   /* m, > 0; a corner at the origin */
-    vec3 ceiling, walls, floor;   /* reflectance, [0, 1] */
+    dvec3 size;                 /* m, > 0; a corner at the origin */
+    vec3 ceiling, walls, floor; /* reflectance, [0, 1] */
 } study_room;
 
 typedef struct study_scene {
@@ -47,8 +47,8 @@ typedef struct study_luminaire {
     const char *photometry; /* ready to open */
     dvec3 *at;
     int at_count;
-    dvec3 aim;         /* {0,0,-1} */
-    double rotate_deg; /* 0 */
+    dvec3 aim;                  /* {0,0,-1} */
+    double rotate_deg;          /* 0 */
     double lumens, lamp_lumens; /* NAN: as the file has it; never both */
     double watts;               /* NAN */
     study_emission emission;
@@ -73,9 +73,11 @@ typedef struct study_grid {
     study_where where;
     const char *name;
     dvec3 origin, u, v; /* m, if points is NULL */
-    double spacing;     /* m, > 0 */
-    const char *points; /* a CSV file, ready to open; NULL: a plane */
+    double spacing;     /* m, > 0; of "en12464" what study_spacing_en12464() says */
+    const char *points; /* a CSV file, ready to open (sim/probes.h); NULL: a plane */
     double require_average, require_minimum, require_uniformity; /* lx, lx, 1; NAN: not asked */
+    bool on_room, en12464; /* how it was written: the plane above is what it comes to */
+    double height, margin; /* m, of `on: room`: above the floor; from the walls, 0 */
 } study_grid;
 
 typedef enum study_projection { PROJECTION_PERSPECTIVE, PROJECTION_ORTHOGRAPHIC } study_projection;
@@ -86,7 +88,7 @@ typedef struct study_view {
     const char *camera; /* NULL: eye, target and so on */
     dvec3 eye, target;  /* m */
     double fov_deg;     /* horizontal; 60 */
-    double width_m;     /* orthographic */
+    double width_m;     /* orthographic; else NAN */
     study_projection projection;
     int width, height; /* pixels; 1024, 768 */
     bool size_given;
@@ -111,12 +113,30 @@ typedef struct study {
 /* Reads and checks the study at path into a. NULL, with *err naming file, line and column. */
 const study *study_read(arena *a, const char *path, notices *n, lux_error *err);
 
+/* The same for a text in memory, of `size` bytes; path is for messages and for what the study
+ * names. */
+const study *study_parse(arena *a, const char *path, const char *text, size_t size, notices *n,
+                         lux_error *err);
+
+/* Sensors of a plane grid along u and along v: max(1, round(length / spacing)). */
+void study_grid_counts(const study_grid *g, double *along_u, double *along_v);
+
+/* The spacing of a grid over an area of these sides (m, > 0) as EN 12464-1:2011, 4.4,
+ * asks:
+ *
+ *     p = 0.2 * 5^(log10 d)        [m], at most 10 m
+ *
+ * with d the longer side or, if that is twice the shorter or more, the shorter one; p is the
+ * largest cell allowed, so that d is cut into the next whole number of d / p. What comes back is
+ * d / that number; the other side has the whole number nearest to its length / spacing. */
+double study_spacing_en12464(double side, double other);
+
 /* For messages of later stages about a piece of the study: fills *err like failed(), with
  * "PATH:LINE:COLUMN: " before the text, and returns NULL. */
 void *study_failed(const study *s, study_where where, lux_error *err, error_code code,
                    const char *format, ...) __attribute__((format(printf, 5, 6), cold));
 
-/* Whether a name matches a pattern with * and ?. */
+/* Whether the whole name matches a pattern with * (any characters, or none) and ? (any one). */
 bool study_match(const char *pattern, const char *name);
 
 #endif

@@ -1,0 +1,229 @@
+/* sim/study.c -- see study.h. The top of a study, and what concerns its parts together. */
+#include "sim/study.h"
+
+#include "core/file.h"
+#include "sim/study_read.h"
+#include "sim/yaml_guard.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- keys of the top ------------------------------------------------------------------------ */
+
+static bool read_version(const study_reader *r, const yaml_node_t *value, void *record)
+{
+    (void)record; /* there is but one version to be told from others */
+    double version;
+    if (!study_read_number(r, value, &version))
+        return false;
+    return version == 1.0 ||
+           study_node_failed(r, value, ERR_UNSUPPORTED,
+                             "version %g of study files, this program knows 1", version);
+}
+
+static bool read_sky_model(const study_reader *r, const yaml_node_t *value, void *record)
+{
+    static const study_word words[] = {
+        { "none", STUDY_OPTIONAL },    { "uniform", STUDY_NOT_YET },
+        { "overcast", STUDY_NOT_YET }, { "intermediate", STUDY_NOT_YET },
+        { "clear", STUDY_NOT_YET },    { "cie", STUDY_NOT_YET },
+        { "perez", STUDY_NOT_YET },    { "panorama", STUDY_NOT_YET },
+    };
+    (void)record;
+    return study_read_word(r, value, words, sizeof words / sizeof *words, sizeof *words) >= 0;
+}
+
+static bool read_sky(const study_reader *r, const yaml_node_t *value, void *record)
+{
+    static const study_key table[] = {
+        { "model", STUDY_REQUIRED, read_sky_model, 0 },
+        { "type", STUDY_NOT_YET },
+        { "sun", STUDY_NOT_YET },
+        { "turbidity", STUDY_NOT_YET },
+        { "horizontal", STUDY_NOT_YET },
+        { "sun_illuminance", STUDY_NOT_YET },
+        { "sun_at", STUDY_NOT_YET },
+        { "ground", STUDY_NOT_YET },
+        { "direct_normal", STUDY_NOT_YET },
+        { "diffuse_horizontal", STUDY_NOT_YET },
+        { "dew_point", STUDY_NOT_YET },
+        { "file", STUDY_NOT_YET },
+        { "rotate", STUDY_NOT_YET },
+        { "scale", STUDY_NOT_YET },
+        { "cie", STUDY_NOT_YET },
+        { "perez", STUDY_NOT_YET },
+        { "panorama", STUDY_NOT_YET },
+    };
+    static const study_keys keys = STUDY_KEYS("a sky", table);
+    return study_read_map(r, value, &keys, record);
+}
+
+static bool read_maintenance(const study_reader *r, const yaml_node_t *value, void *record)
+{
+    study *s                    = record;
+    return s->maintenance_given = study_read_share(r, value, &s->maintenance);
+}
+
+static const study_key top_table[] = {
+    { "lux4", STUDY_REQUIRED, read_version, 0 },
+    { "room", STUDY_OPTIONAL, study_read_room, offsetof(study, room) },
+    { "scene", STUDY_OPTIONAL, study_read_scenes, 0 },
+    { "site", STUDY_NOT_YET },
+    { "when", STUDY_NOT_YET },
+    { "sky", STUDY_OPTIONAL, read_sky, 0 },
+    { "maintenance", STUDY_OPTIONAL, read_maintenance, 0 },
+    { "luminaires", STUDY_OPTIONAL, study_read_luminaires, 0 },
+    { "lights", STUDY_OPTIONAL, study_read_lights, 0 },
+    { "materials", STUDY_OPTIONAL, study_read_materials, 0 },
+    { "grids", STUDY_OPTIONAL, study_read_grids, 0 },
+    { "views", STUDY_OPTIONAL, study_read_views, 0 },
+    { "accuracy", STUDY_OPTIONAL, study_read_percent, offsetof(study, accuracy) },
+    { "variants", STUDY_NOT_YET },
+};
+static const study_keys top_keys = STUDY_KEYS("a study", top_table);
+
+/* ---- names ---------------------------------------------------------------------------------- */
+
+typedef struct named {
+    const char *name;
+    study_where where;
+} named;
+
+static int by_name_and_place(const void *left, const void *right)
+{
+    const named *a = left, *b = right;
+    int order = strcmp(a->name, b->name);
+    order     = order ? order : a->where.line - b->where.line;
+    return order ? order : a->where.column - b->where.column;
+}
+
+static bool names_differ(const study *s, const char *what, named *list, int count, lux_error *err)
+{
+    qsort(list, (size_t)count, sizeof *list, by_name_and_place);
+    for (int i = 1; i < count; i++)
+        if (!strcmp(list[i].name, list[i - 1].name))
+            return study_failed(s, list[i].where, err, ERR_FORMAT,
+                                "the name `%s` is taken by the %s of line %d", list[i].name, what,
+                                list[i - 1].where.line);
+    return true;
+}
+
+/* Grids and views name files, which must differ; luminaires are to be told apart. */
+static bool names_are_unique(const study *s, lux_error *err)
+{
+    size_t room   = (size_t)s->grid_count + (size_t)s->view_count + (size_t)s->luminaire_count;
+    arena scratch = { 0 };
+    named *list   = arena_array(&scratch, named, room, err);
+    bool good     = list != NULL;
+
+    int count = 0;
+    for (int i = 0; good && i < s->grid_count; i++)
+        list[count++] = (named){ s->grids[i].name, s->grids[i].where };
+    for (int i = 0; good && i < s->view_count; i++)
+        list[count++] = (named){ s->views[i].name, s->views[i].where };
+    good = good && names_differ(s, "grid or view", list, count, err);
+
+    count = 0;
+    for (int i = 0; good && i < s->luminaire_count; i++)
+        if (s->luminaires[i].name)
+            list[count++] = (named){ s->luminaires[i].name, s->luminaires[i].where };
+    good = good && names_differ(s, "luminaire", list, count, err);
+    arena_clear(&scratch);
+    return good;
+}
+
+/* ---- the whole ------------------------------------------------------------------------------ */
+
+/* "a/b" of "a/b/c.yaml", "." of "c.yaml", "/" of "/c.yaml". */
+static char *folder_of(arena *a, const char *path, lux_error *err)
+{
+    const char *slash = strrchr(path, '/');
+    size_t length     = slash && slash > path ? (size_t)(slash - path) : 1;
+    char *folder      = arena_array(a, char, length + 1, err);
+    if (folder)
+        memcpy(folder, slash ? path : ".", length);
+    return folder;
+}
+
+static char *text_kept(arena *a, const char *text, lux_error *err)
+{
+    size_t bytes = strlen(text) + 1;
+    char *copy   = arena_array(a, char, bytes, err);
+    return copy ? memcpy(copy, text, bytes) : NULL;
+}
+
+static bool read_top(const study_reader *r, study *s)
+{
+    const yaml_node_t *top = yaml_document_get_root_node(r->tree);
+    if (top->type != YAML_MAPPING_NODE)
+        return study_unexpected(r, top, "a study (lux4: 1 ...)");
+
+    /* The keys of another version are not this one's: that is said first */
+    const yaml_node_t *version = study_map_value(r, top, "lux4");
+    if (version && !read_version(r, version, s))
+        return false;
+    return study_read_map(r, top, &top_keys, s) && study_finish_grids(s, r->err) &&
+           names_are_unique(s, r->err);
+}
+
+const study *study_parse(arena *a, const char *path, const char *text, size_t size, notices *n,
+                         lux_error *err)
+{
+    study *s = arena_new(a, study, err);
+    if (!s || !(s->path = text_kept(a, path, err)) || !(s->folder = folder_of(a, path, err)))
+        return NULL;
+    s->maintenance = 1.0;
+    s->accuracy    = NAN;
+
+    yaml_document_t tree;
+    if (!yaml_guard_load(&tree, path, text, size, err))
+        return NULL;
+    study_reader r = { a, &tree, s->path, s->folder, n, err };
+    bool good      = read_top(&r, s);
+    yaml_document_delete(&tree);
+    return good ? s : NULL;
+}
+
+const study *study_read(arena *a, const char *path, notices *n, lux_error *err)
+{
+    arena scratch  = { 0 };
+    size_t size    = 0;
+    char *text     = file_read(&scratch, path, YAML_GUARD_BYTES, &size, err);
+    const study *s = text ? study_parse(a, path, text, size, n, err) : NULL;
+    arena_clear(&scratch);
+    return s;
+}
+
+void *study_failed(const study *s, study_where where, lux_error *err, error_code code,
+                   const char *format, ...)
+{
+    lux_error text;
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text.text, sizeof text.text, format, args);
+    va_end(args);
+    return failed(err, code, "%s:%d:%d: %s", s->path, where.line, where.column, text.text);
+}
+
+bool study_match(const char *pattern, const char *name)
+{
+    const char *star = NULL, *from = NULL; /* the last *, and where in name it ends for now */
+    while (*name) {
+        if (*pattern == '*') {
+            star = pattern++, from = name;
+        } else if (*pattern == '?' || *pattern == *name) {
+            pattern++, name++;
+            while (pattern[-1] == '?' && ((unsigned char)*name & 0xc0) == 0x80)
+                name++; /* the rest of one character */
+        } else if (star) {
+            pattern = star + 1, name = ++from;
+        } else {
+            return false;
+        }
+    }
+    while (*pattern == '*')
+        pattern++;
+    return *pattern == '\0';
+}

@@ -1,0 +1,232 @@
+/* sim/study_node.c -- mappings, lists and words of a study; see study_node.h. */
+#include "sim/study_node.h"
+
+#include <assert.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---- messages ------------------------------------------------------------------------------- */
+
+study_where study_node_where(const yaml_node_t *n)
+{
+    return (study_where){ (int)n->start_mark.line + 1, (int)n->start_mark.column + 1 };
+}
+
+const char *study_node_text(const yaml_node_t *n)
+{
+    return n->type == YAML_SCALAR_NODE ? (const char *)n->data.scalar.value : "";
+}
+
+/* At most 48 bytes of text, whole characters, nothing that would move the cursor. */
+static void show_text(char *to, const char *text, size_t length)
+{
+    enum { MOST = 48 };
+    size_t shown = length;
+    if (length > MOST)
+        for (shown = MOST; shown > 0 && ((unsigned char)text[shown] & 0xc0) == 0x80;)
+            shown--;
+    for (size_t i = 0; i < shown; i++) {
+        unsigned char c = (unsigned char)text[i];
+        *to++           = c < 0x20 || c == 0x7f ? '?' : text[i];
+    }
+    strcpy(to, shown < length ? "..." : "");
+}
+
+study_found study_node_found(const yaml_node_t *n)
+{
+    study_found f;
+    char text[64];
+    if (n->type == YAML_MAPPING_NODE) {
+        strcpy(f.text, "a mapping");
+    } else if (n->type == YAML_SEQUENCE_NODE) {
+        snprintf(f.text, sizeof f.text, "a list of %d", study_items(n));
+    } else if (n->data.scalar.length == 0) {
+        bool plain = n->data.scalar.style == YAML_PLAIN_SCALAR_STYLE;
+        strcpy(f.text, plain ? "nothing" : "an empty text");
+    } else {
+        show_text(text, study_node_text(n), n->data.scalar.length);
+        bool quoted = n->data.scalar.style != YAML_PLAIN_SCALAR_STYLE;
+        snprintf(f.text, sizeof f.text, "%s`%s`", quoted ? "the text " : "", text);
+    }
+    return f;
+}
+
+void *study_node_failed(const study_reader *r, const yaml_node_t *n, error_code code,
+                        const char *format, ...)
+{
+    char text[sizeof r->err->text];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    study_where at = study_node_where(n);
+    return failed(r->err, code, "%s:%d:%d: %s", r->path, at.line, at.column, text);
+}
+
+void *study_unexpected(const study_reader *r, const yaml_node_t *n, const char *wanted)
+{
+    return study_node_failed(r, n, ERR_FORMAT, "expected %s, found %s", wanted,
+                             study_node_found(n).text);
+}
+
+/* ---- mappings ------------------------------------------------------------------------------- */
+
+static int least(int a, int b) { return a < b ? a : b; }
+
+/* How many characters must be inserted, dropped, changed or swapped with their neighbours to make
+ * b of a (optimal string alignment). Of each, 31 bytes are looked at. */
+static int edit_distance(const char *a, const char *b)
+{
+    enum { MOST = 31 };
+    int d[MOST + 1][MOST + 1];
+    int rows = (int)strnlen(a, MOST), columns = (int)strnlen(b, MOST);
+    for (int i = 0; i <= rows; i++)
+        d[i][0] = i;
+    for (int j = 0; j <= columns; j++)
+        d[0][j] = j;
+    for (int i = 1; i <= rows; i++)
+        for (int j = 1; j <= columns; j++) {
+            int change = d[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
+            d[i][j]    = least(change, least(d[i - 1][j], d[i][j - 1]) + 1);
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                d[i][j] = least(d[i][j], d[i - 2][j - 2] + 1);
+        }
+    return d[rows][columns];
+}
+
+static void *key_unknown(const study_reader *r, const yaml_node_t *key, const study_keys *keys)
+{
+    const char *name = study_node_text(key), *nearest = NULL;
+    int best = (int)(strnlen(name, 31) + 1) / 2; /* half of it may be wrong */
+    for (int k = 0; k < keys->count; k++) {
+        int distance = edit_distance(name, keys->key[k].name);
+        if (distance < best || (distance == best && !nearest))
+            best = distance, nearest = keys->key[k].name;
+    }
+    if (nearest)
+        return study_node_failed(r, key, ERR_FORMAT, "unknown key %s: did you mean `%s`?",
+                                 study_node_found(key).text, nearest);
+
+    char all[300] = "";
+    for (int k = 0; k < keys->count; k++) {
+        size_t used = strlen(all);
+        snprintf(all + used, sizeof all - used, "%s%s", k ? ", " : "", keys->key[k].name);
+    }
+    return study_node_failed(r, key, ERR_FORMAT, "unknown key %s: %s has %s",
+                             study_node_found(key).text, keys->what, all);
+}
+
+static const study_key *key_find(const study_keys *keys, const yaml_node_t *name)
+{
+    for (int k = 0; k < keys->count; k++)
+        if (!strcmp(study_node_text(name), keys->key[k].name))
+            return &keys->key[k];
+    return NULL;
+}
+
+static bool keys_complete(const study_reader *r, const yaml_node_t *map, const study_keys *keys,
+                          const int *line_of_key)
+{
+    for (int k = 0; k < keys->count; k++)
+        if (keys->key[k].state == STUDY_REQUIRED && !line_of_key[k])
+            return study_node_failed(r, map, ERR_FORMAT, "%s needs the key `%s`", keys->what,
+                                     keys->key[k].name);
+    return true;
+}
+
+bool study_read_map(const study_reader *r, const yaml_node_t *map, const study_keys *keys,
+                    void *record)
+{
+    assert(keys->count <= STUDY_MOST_KEYS);
+    if (map->type != YAML_MAPPING_NODE)
+        return study_unexpected(r, map, "a mapping (key: value)");
+
+    int line_of_key[STUDY_MOST_KEYS] = { 0 };
+    const yaml_node_pair_t *pair     = map->data.mapping.pairs.start;
+    for (; pair < map->data.mapping.pairs.top; pair++) {
+        const yaml_node_t *name = yaml_document_get_node(r->tree, pair->key);
+        if (name->type != YAML_SCALAR_NODE)
+            return study_unexpected(r, name, "the name of a key");
+        const study_key *key = key_find(keys, name);
+        if (!key)
+            return key_unknown(r, name, keys);
+
+        int *line = &line_of_key[key - keys->key];
+        if (*line)
+            return study_node_failed(r, name, ERR_FORMAT, "the key `%s` stands in line %d already",
+                                     key->name, *line);
+        *line = study_node_where(name).line;
+        if (key->state == STUDY_NOT_YET)
+            return study_node_failed(r, name, ERR_UNSUPPORTED, "`%s` is not supported yet",
+                                     key->name);
+        const yaml_node_t *value = yaml_document_get_node(r->tree, pair->value);
+        if (!key->read(r, value, (char *)record + key->offset))
+            return false;
+    }
+    return keys_complete(r, map, keys, line_of_key);
+}
+
+const yaml_node_t *study_map_value(const study_reader *r, const yaml_node_t *map, const char *key)
+{
+    if (map->type != YAML_MAPPING_NODE)
+        return NULL;
+    const yaml_node_pair_t *pair = map->data.mapping.pairs.start;
+    for (; pair < map->data.mapping.pairs.top; pair++)
+        if (!strcmp(study_node_text(yaml_document_get_node(r->tree, pair->key)), key))
+            return yaml_document_get_node(r->tree, pair->value);
+    return NULL;
+}
+
+/* ---- lists ---------------------------------------------------------------------------------- */
+
+int study_items(const yaml_node_t *list)
+{
+    if (list->type != YAML_SEQUENCE_NODE)
+        return 0;
+    return (int)(list->data.sequence.items.top - list->data.sequence.items.start);
+}
+
+const yaml_node_t *study_item(const study_reader *r, const yaml_node_t *list, int i)
+{
+    assert(i >= 0 && i < study_items(list));
+    return yaml_document_get_node(r->tree, list->data.sequence.items.start[i]);
+}
+
+void *study_read_list(const study_reader *r, const yaml_node_t *list, size_t size,
+                      study_read_fn *read, int *count)
+{
+    if (list->type != YAML_SEQUENCE_NODE)
+        return study_unexpected(r, list, "a list");
+    if (study_items(list) > STUDY_MOST_ITEMS)
+        return study_node_failed(r, list, ERR_FORMAT, "a list of %d, expected at most %d",
+                                 study_items(list), STUDY_MOST_ITEMS);
+
+    *count      = study_items(list);
+    char *items = arena_alloc(r->a, (size_t)*count, size, alignof(double), r->err);
+    for (int i = 0; items && i < *count; i++)
+        if (!read(r, study_item(r, list, i), items + (size_t)i * size))
+            return NULL;
+    return items;
+}
+
+/* ---- words ---------------------------------------------------------------------------------- */
+
+int study_read_word(const study_reader *r, const yaml_node_t *value, const study_word *words,
+                    int count, size_t stride)
+{
+    char all[300] = "";
+    for (int i = 0; i < count; i++) {
+        const study_word *word = (const study_word *)((const char *)words + (size_t)i * stride);
+        if (value->type == YAML_SCALAR_NODE && !strcmp(study_node_text(value), word->name)) {
+            if (word->state != STUDY_NOT_YET)
+                return i;
+            study_node_failed(r, value, ERR_UNSUPPORTED, "`%s` is not supported yet", word->name);
+            return -1;
+        }
+        size_t used = strlen(all);
+        snprintf(all + used, sizeof all - used, "%s%s", i ? " or " : "", word->name);
+    }
+    study_unexpected(r, value, all);
+    return -1;
+}

@@ -18,7 +18,7 @@ typedef struct notice {
 } notice;
 
 typedef struct notices {
-    arena *a;            /* where the lines are kept */
+    arena *a; /* where the lines are kept */
     notice *first, *last;
     int count;
 } notices;

@@ -28,10 +28,7 @@ static inline dvec3 d3_cross(dvec3 a, dvec3 b)
 {
     return (dvec3){ a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
 }
-static inline dvec3 d3_from(vec3 a)
-{
-    return (dvec3){ (double)a.x, (double)a.y, (double)a.z };
-}
+static inline dvec3 d3_from(vec3 a) { return (dvec3){ (double)a.x, (double)a.y, (double)a.z }; }
 static inline vec3 d3_to_float(dvec3 a) { return (vec3){ (float)a.x, (float)a.y, (float)a.z }; }
 static inline bool d3_finite(dvec3 a) { return isfinite(a.x) && isfinite(a.y) && isfinite(a.z); }
 
@@ -71,15 +68,16 @@ static inline transform transform_inverse(const transform *t)
 {
     const double(*m)[4] = t->m;
     double s            = 1.0 / transform_determinant(t);
-    transform r         = {
-        { { s * (m[1][1] * m[2][2] - m[1][2] * m[2][1]), s * (m[0][2] * m[2][1] - m[0][1] * m[2][2]),
-            s * (m[0][1] * m[1][2] - m[0][2] * m[1][1]), 0 },
-          { s * (m[1][2] * m[2][0] - m[1][0] * m[2][2]), s * (m[0][0] * m[2][2] - m[0][2] * m[2][0]),
-            s * (m[0][2] * m[1][0] - m[0][0] * m[1][2]), 0 },
-          { s * (m[1][0] * m[2][1] - m[1][1] * m[2][0]), s * (m[0][1] * m[2][0] - m[0][0] * m[2][1]),
-            s * (m[0][0] * m[1][1] - m[0][1] * m[1][0]), 0 } }
-    };
-    dvec3 o = transform_vector(&r, (dvec3){ m[0][3], m[1][3], m[2][3] });
+    transform r         = { { { s * (m[1][1] * m[2][2] - m[1][2] * m[2][1]),
+                                s * (m[0][2] * m[2][1] - m[0][1] * m[2][2]),
+                                s * (m[0][1] * m[1][2] - m[0][2] * m[1][1]), 0 },
+                              { s * (m[1][2] * m[2][0] - m[1][0] * m[2][2]),
+                                s * (m[0][0] * m[2][2] - m[0][2] * m[2][0]),
+                                s * (m[0][2] * m[1][0] - m[0][0] * m[1][2]), 0 },
+                              { s * (m[1][0] * m[2][1] - m[1][1] * m[2][0]),
+                                s * (m[0][1] * m[2][0] - m[0][0] * m[2][1]),
+                                s * (m[0][0] * m[1][1] - m[0][1] * m[1][0]), 0 } } };
+    dvec3 o             = transform_vector(&r, (dvec3){ m[0][3], m[1][3], m[2][3] });
     r.m[0][3] = -o.x, r.m[1][3] = -o.y, r.m[2][3] = -o.z;
     return r;
 }

@@ -20,6 +20,13 @@ static inline vvec3 vwarp_cosine(vfloat s, vfloat t)
     w.z = vsqrt(vmax(1.0f - w.x * w.x - w.y * w.y, vsplat(0.0f)));
     return w;
 }
+/* The same about the unit vector n. */
+static inline vvec3 vwarp_cosine_about(vvec3 n, vfloat s, vfloat t)
+{
+    vvec3 u, v, w = vwarp_cosine(s, t);
+    vframe(n, &u, &v);
+    return vadd(vscale(n, w.z), vadd(vscale(u, w.x), vscale(v, w.y)));
+}
 /* 1/sr; 0 where cos_z is not above 0. */
 static inline vfloat vwarp_cosine_pdf(vfloat cos_z)
 {

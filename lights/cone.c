@@ -54,8 +54,10 @@ const light *light_cone(arena *a, const cone_desc *d, lux_error *err)
     if (!(length > 0.0f && length < INFINITY))
         return failed(err, ERR_ARGUMENT, "cone light: the aim has no length");
     if (!(d->inner >= 0.0f && d->outer > d->inner && d->outer <= (float)M_PI))
-        return failed(err, ERR_ARGUMENT, "cone light: half angles %g and %g rad, wanted 0 <= inner "
-                      "< outer <= pi", (double)d->inner, (double)d->outer);
+        return failed(err, ERR_ARGUMENT,
+                      "cone light: half angles %g and %g rad, wanted 0 <= inner "
+                      "< outer <= pi",
+                      (double)d->inner, (double)d->outer);
     if (!v3_nonnegative(d->intensity))
         return failed(err, ERR_ARGUMENT, "cone light: an intensity is not >= 0 W/sr");
 

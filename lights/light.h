@@ -72,10 +72,10 @@ typedef struct parallel_desc {
 } parallel_desc;
 
 typedef struct luminaire_desc {
-    vec3 position;                /* m, centre of the luminous opening */
-    vec3 aim;                     /* where gamma = 0 points; any length but 0 */
-    float rotate;                 /* rad, counter-clockwise about +z seen from above, before aiming */
-    vec3 scale;                   /* W/sr for each candela of the file: dimming, colour, 1/179; >= 0 */
+    vec3 position; /* m, centre of the luminous opening */
+    vec3 aim;      /* where gamma = 0 points; any length but 0 */
+    float rotate;  /* rad, counter-clockwise about +z seen from above, before aiming */
+    vec3 scale;    /* W/sr for each candela of the file: dimming, colour, 1/179; >= 0 */
     const struct photometry *web; /* must outlive the light; several lights may share it */
 } luminaire_desc;
 

@@ -16,7 +16,7 @@ static vmask diffuse_scatter(const material *self, const vvec3 *wo, const vvec3 
                              vfloat t, vmask active, vscatter *out)
 {
     (void)wo;
-    out->wi     = vkeep3(active, vcosine_about(*n, s, t));
+    out->wi     = vkeep3(active, vwarp_cosine_about(*n, s, t));
     out->weight = vkeep3(active, vspread(((const diffuse *)self)->reflectance));
     return active;
 }

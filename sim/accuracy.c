@@ -48,7 +48,8 @@ double clock_seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* ---- one round: samples ------------------------------------------------------------------------ */
+/* ---- one round: samples ------------------------------------------------------------------------
+ */
 
 /* Adds the values of samples begin .. end - 1, which are of one scramble of one item. */
 static void add_set(run_state *s, const float *values, int begin, int end, double *total,
@@ -86,8 +87,10 @@ static void sample_sets(run_state *s, int thread, int j0, int j1, int r0, int r1
                     };
             s->d->sample(s->d->context, thread, ids, count, values);
             for (int set = from; set < to; set++) {
-                int j = j0 + set / (r1 - r0), r = r0 + set % (r1 - r0), at = (set - from) * (int)step;
-                add_set(s, values, at, at + (int)step, totals + (size_t)(j - j0) * (size_t)s->d->channels,
+                int j = j0 + set / (r1 - r0), r = r0 + set % (r1 - r0),
+                    at = (set - from) * (int)step;
+                add_set(s, values, at, at + (int)step,
+                        totals + (size_t)(j - j0) * (size_t)s->d->channels,
                         &s->new_parts[j].sum[r]);
             }
         }
@@ -99,7 +102,7 @@ static void do_work(void *context, int item, int thread)
     run_state *s = context;
     int j0 = item / s->pieces * s->together, j1 = j0 + s->together;
     int piece = item % s->pieces, per = SCRAMBLES / s->pieces;
-    j1        = j1 < s->active_count ? j1 : s->active_count;
+    j1 = j1 < s->active_count ? j1 : s->active_count;
 
     size_t at = (size_t)piece * (size_t)s->active_count + (size_t)j0;
     sample_sets(s, thread, j0, j1, piece * per, (piece + 1) * per,
@@ -139,9 +142,10 @@ static bool sample_round(run_state *s, lux_error *err)
     uint32_t sensor = SCRAMBLES * s->n; /* samples of an item */
     s->together     = sensor <= BUNDLE ? (int)(BUNDLE / sensor) : 1;
     s->pieces       = sensor > BUNDLE && s->active_count < FEW_ITEMS ? SCRAMBLES : 1;
-    s->new_total    = arena_array(&scratch, double, active * (size_t)s->pieces * (size_t)s->d->channels, err);
-    s->new_parts    = arena_array(&scratch, by_scramble, active, err);
-    s->pieces_done  = arena_array(&scratch, atomic_int, active, err);
+    s->new_total =
+        arena_array(&scratch, double, active *(size_t)s->pieces *(size_t)s->d->channels, err);
+    s->new_parts   = arena_array(&scratch, by_scramble, active, err);
+    s->pieces_done = arena_array(&scratch, atomic_int, active, err);
     if (s->new_total && s->new_parts && s->pieces_done) {
         int items = (s->active_count + s->together - 1) / s->together * s->pieces;
         atomic_store(&s->samples_done, 0);
@@ -153,7 +157,8 @@ static bool sample_round(run_state *s, lux_error *err)
     return good;
 }
 
-/* ---- between rounds: how good it is ------------------------------------------------------------ */
+/* ---- between rounds: how good it is ------------------------------------------------------------
+ */
 
 static double value_of(const run_state *s, int item)
 {
@@ -207,8 +212,8 @@ static int compare(const void *a, const void *b)
 /* Judges all items; leaves those that are to be sampled on in s->active. */
 static bool judge(run_state *s, lux_error *err)
 {
-    int items = s->d->items;
-    arena scratch = { 0 };
+    int items      = s->d->items;
+    arena scratch  = { 0 };
     double *ratios = arena_array(&scratch, double, (size_t)items, err);
     if (!ratios)
         return false;
@@ -273,10 +278,10 @@ bool accuracy_run(arena *a, const accuracy_desc *d, accuracy_result *out, lux_er
     *out          = (accuracy_result){ .mean       = arena_array(a, double, values, err),
                                        .half_width = arena_array(a, double, items, err),
                                        .samples    = arena_array(a, uint32_t, items, err) };
-    s.total  = arena_array(&scratch, double, values, err);
-    s.parts  = arena_array(&scratch, by_scramble, items, err);
-    s.active = arena_array(&scratch, int, items, err);
-    s.values = arena_array(&scratch, float, (size_t)d->threads * MOST_CHANNELS * BUNDLE, err);
+    s.total       = arena_array(&scratch, double, values, err);
+    s.parts       = arena_array(&scratch, by_scramble, items, err);
+    s.active      = arena_array(&scratch, int, items, err);
+    s.values      = arena_array(&scratch, float, (size_t)d->threads *MOST_CHANNELS *BUNDLE, err);
     bool good = out->mean && out->half_width && out->samples && s.total && s.parts && s.active &&
                 s.values && run_rounds(&s, err);
     for (size_t v = 0; good && v < values; v++) {

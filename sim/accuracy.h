@@ -27,7 +27,7 @@
 
 enum {
     SCRAMBLES     = 16,
-    BUNDLE        = 1024,    /* samples that are asked for at once, at most */
+    BUNDLE        = 1024, /* samples that are asked for at once, at most */
     MOST_CHANNELS = 16,
     MOST_SAMPLES  = 1 << 20, /* a scramble: 16 million an unknown */
 };
@@ -48,10 +48,10 @@ typedef struct accuracy_desc {
     double accuracy;     /* > 0, relative */
     double needed;       /* share of the items that must be done, (0, 1] */
     floor_kind floor;
-    int first_samples;   /* a scramble, in the first round; a power of two <= BUNDLE */
-    int threads;         /* >= 1 */
-    double deadline;     /* s, on clock_seconds(); INFINITY: none. The first round is finished. */
-    progress *progress;  /* may be NULL; its stop ends the work */
+    int first_samples;  /* a scramble, in the first round; a power of two <= BUNDLE */
+    int threads;        /* >= 1 */
+    double deadline;    /* s, on clock_seconds(); INFINITY: none. The first round is finished. */
+    progress *progress; /* may be NULL; its stop ends the work */
 
     /* Fills in values[channel * BUNDLE + i] of sample i, for i < count <= BUNDLE. */
     void (*sample)(void *context, int thread, const sample_id *ids, int count, float *values);

@@ -71,11 +71,12 @@ bool camera_of_view(const scene *s, const study_view *v, camera *out, lux_error 
 
 vray camera_ray(const camera *c, vfloat x, vfloat y)
 {
-    vfloat s   = 2.0f / (float)c->width * x - 1.0f;
-    vfloat t   = 1.0f - 2.0f / (float)c->height * y;
-    vvec3 off  = vadd(vscale(vspread(c->right), s), vscale(vspread(c->up), t));
-    vray ray   = { .origin = vspread(c->eye), .direction = vspread(c->forward),
-                   .reach = vsplat(INFINITY) };
+    vfloat s  = 2.0f / (float)c->width * x - 1.0f;
+    vfloat t  = 1.0f - 2.0f / (float)c->height * y;
+    vvec3 off = vadd(vscale(vspread(c->right), s), vscale(vspread(c->up), t));
+    vray ray  = { .origin    = vspread(c->eye),
+                  .direction = vspread(c->forward),
+                  .reach     = vsplat(INFINITY) };
     if (c->perspective)
         ray.direction = vnormalize(vadd(ray.direction, off));
     else

@@ -5,11 +5,11 @@
 #include "sim/scene.h"
 
 typedef struct camera {
-    int width, height;         /* pixels */
+    int width, height; /* pixels */
     bool perspective;
-    vec3 eye;                  /* m, in the scene's frame */
-    vec3 right, up, forward;   /* perspective: to the edges of the picture at unit distance;
-                                  orthographic: m, half the picture; forward is unit */
+    vec3 eye;                /* m, in the scene's frame */
+    vec3 right, up, forward; /* perspective: to the edges of the picture at unit distance;
+                                orthographic: m, half the picture; forward is unit */
 } camera;
 
 /* The camera of a view: its own eye and target, or the glTF camera that it names. False, with

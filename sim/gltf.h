@@ -17,14 +17,14 @@ extern "C" {
 #endif
 
 typedef struct gltf_material {
-    const char *name;      /* "" if it has none */
-    vec3 base_color;       /* linear, [0, 1]; textures as their mean, vertex colours left out */
-    float alpha;           /* of the base colour */
+    const char *name; /* "" if it has none */
+    vec3 base_color;  /* linear, [0, 1]; textures as their mean, vertex colours left out */
+    float alpha;      /* of the base colour */
     float metallic, roughness;
-    vec3 emission;         /* cd/m^2 in each channel (emissiveFactor, texture mean, strength) */
-    float transmission;    /* KHR_materials_transmission */
-    bool textured;         /* some texture was taken as its mean colour */
-    bool cut;              /* alphaMode is MASK or BLEND */
+    vec3 emission;      /* cd/m^2 in each channel (emissiveFactor, texture mean, strength) */
+    float transmission; /* KHR_materials_transmission */
+    bool textured;      /* some texture was taken as its mean colour */
+    bool cut;           /* alphaMode is MASK or BLEND */
 } gltf_material;
 
 typedef struct gltf_mesh {
@@ -47,8 +47,8 @@ typedef struct gltf_camera {
     const char *name; /* the camera's, or else its node's */
     transform place;  /* looks along -z, +y up */
     bool perspective;
-    double yfov, aspect;  /* rad, vertical; width / height or 0 if not said */
-    double xmag, ymag;    /* m, half width and height if orthographic */
+    double yfov, aspect; /* rad, vertical; width / height or 0 if not said */
+    double xmag, ymag;   /* m, half width and height if orthographic */
 } gltf_camera;
 
 typedef enum gltf_light_kind { GLTF_POINT, GLTF_SPOT, GLTF_DIRECTIONAL } gltf_light_kind;
@@ -56,9 +56,9 @@ typedef enum gltf_light_kind { GLTF_POINT, GLTF_SPOT, GLTF_DIRECTIONAL } gltf_li
 typedef struct gltf_light {
     const char *name; /* the light's, or else its node's */
     gltf_light_kind kind;
-    transform place;   /* shines along -z */
-    vec3 color;        /* linear, >= 0 */
-    double intensity;  /* cd; lux if directional */
+    transform place;     /* shines along -z */
+    vec3 color;          /* linear, >= 0 */
+    double intensity;    /* cd; lux if directional */
     double inner, outer; /* rad */
 } gltf_light;
 

@@ -28,7 +28,8 @@ typedef struct grid_run_state {
     uint32_t seed;  /* of this grid */
 } grid_run_state;
 
-/* ---- sensors ------------------------------------------------------------------------------------ */
+/* ---- sensors ------------------------------------------------------------------------------------
+ */
 
 static int cells(double length, double spacing)
 {
@@ -47,9 +48,9 @@ static bool plane_sensors(arena *a, const study_grid *g, grid_result *out, lux_e
     dvec3 n = d3_cross(g->u, g->v);
     n       = d3_scale(n, 1.0 / d3_length(n));
     for (int k = 0; k < out->sensor_count; k++) {
-        double s  = (k % out->columns + 0.5) / out->columns;
-        double t  = (k / out->columns + 0.5) / out->rows;
-        dvec3 off = d3_add(d3_scale(g->u, s), d3_scale(g->v, t));
+        double s   = (k % out->columns + 0.5) / out->columns;
+        double t   = (k / out->columns + 0.5) / out->rows;
+        dvec3 off  = d3_add(d3_scale(g->u, s), d3_scale(g->v, t));
         sensors[k] = (grid_sensor){ d3_add(g->origin, off), n };
     }
     out->sensors = sensors;
@@ -65,7 +66,7 @@ static bool point_sensors(arena *a, const study_grid *g, grid_result *out, lux_e
     if (!sensors)
         return false;
     for (int k = 0; k < p.count; k++)
-        sensors[k] = (grid_sensor){ p.at[k], p.normal[k] };
+        sensors[k] = (grid_sensor){ p.position[k], p.normal[k] };
     out->columns = out->sensor_count = p.count;
     out->rows                        = 1;
     out->sensors                     = sensors;
@@ -85,7 +86,8 @@ static float place_error(vec3 p)
     return 4.0f * 0x1p-23f * fmaxf(most, 0x1p-6f);
 }
 
-/* ---- light that needs no samples ----------------------------------------------------------------- */
+/* ---- light that needs no samples
+ * ----------------------------------------------------------------- */
 
 static void direct_chunk(void *context, int item, int thread)
 {
@@ -115,12 +117,15 @@ static void direct_chunk(void *context, int item, int thread)
     }
     direct_all(g->s, g->threads[thread].direct, at, active, packets, e);
     for (int j = 0; j < count; j++)
-        g->direct[first + j] = LUMENS_PER_WATT * (double)lane(vrgb_luminance(e[j / LANES]), j % LANES);
+        g->direct[first + j] =
+            LUMENS_PER_WATT * (double)lane(vrgb_luminance(e[j / LANES]), j % LANES);
 }
 
-/* ---- light that is sampled -------------------------------------------------------------------------- */
+/* ---- light that is sampled
+ * -------------------------------------------------------------------------- */
 
-static void sample_sensors(void *context, int thread, const sample_id *ids, int count, float *values)
+static void sample_sensors(void *context, int thread, const sample_id *ids, int count,
+                           float *values)
 {
     grid_run_state *g = context;
     path_bundle *b    = &g->threads[thread].bundle;
@@ -136,15 +141,16 @@ static void sample_sensors(void *context, int thread, const sample_id *ids, int 
     }
     path_trace(g->threads[thread].paths, b, false, !g->o->direct_only);
     for (int i = 0; i < count; i++) {
-        vec3 glow = { b->glow[0][i], b->glow[1][i], b->glow[2][i] };
-        vec3 rest = { b->indirect[0][i], b->indirect[1][i], b->indirect[2][i] };
+        vec3 glow                    = { b->glow[0][i], b->glow[1][i], b->glow[2][i] };
+        vec3 rest                    = { b->indirect[0][i], b->indirect[1][i], b->indirect[2][i] };
         float straight               = (float)LUMENS_PER_WATT * rgb_luminance(glow);
         values[GLOW * BUNDLE + i]    = straight;
         values[SAMPLED * BUNDLE + i] = straight + (float)LUMENS_PER_WATT * rgb_luminance(rest);
     }
 }
 
-/* ---- a run --------------------------------------------------------------------------------------------- */
+/* ---- a run
+ * --------------------------------------------------------------------------------------------- */
 
 static bool make_threads(grid_run_state *g, arena *a, lux_error *err)
 {
@@ -232,11 +238,11 @@ bool grid_run(arena *a, const scene *s, const study_grid *grid, const run_option
     for (const char *c = grid->name; *c; c++)
         g.seed = hash_combine_u32(g.seed, (uint32_t)(unsigned char)*c);
 
-    bool good = grid_sensors(a, grid, out, err);
-    size_t n  = (size_t)out->sensor_count;
-    out->asked = !isnan(o->accuracy)           ? o->accuracy
-                 : !isnan(s->study->accuracy) ? s->study->accuracy
-                                              : GRID_DEFAULT_PERCENT / 100.0;
+    bool good           = grid_sensors(a, grid, out, err);
+    size_t n            = (size_t)out->sensor_count;
+    out->asked          = !isnan(o->accuracy)          ? o->accuracy
+                          : !isnan(s->study->accuracy) ? s->study->accuracy
+                                                       : GRID_DEFAULT_PERCENT / 100.0;
     out->interval_valid = true;
     out->illuminance    = good ? arena_array(a, double, n, err) : NULL;
     out->direct         = out->illuminance ? arena_array(a, double, n, err) : NULL;

@@ -7,10 +7,10 @@
 
 /* What is asked of a run, grids and views alike. */
 typedef struct run_options {
-    double accuracy;  /* relative, > 0; NAN: the study's, or else the default of the command */
-    double deadline;  /* s, on clock_seconds(); INFINITY: none */
+    double accuracy; /* relative, > 0; NAN: the study's, or else the default of the command */
+    double deadline; /* s, on clock_seconds(); INFINITY: none */
     uint32_t seed;
-    int threads;      /* >= 1 */
+    int threads; /* >= 1 */
     bool direct_only;
     progress *progress; /* may be NULL */
 } run_options;
@@ -25,7 +25,7 @@ typedef struct grid_result {
     const study_grid *grid;
     int columns, rows; /* sensors along u and v; a list of points has one row */
     int sensor_count;
-    const grid_sensor *sensors; /* x fastest: row * columns + column */
+    const grid_sensor *sensors;                           /* x fastest: row * columns + column */
     double *illuminance, *direct, *indirect, *half_width; /* lx, a sensor */
 
     double average, minimum, maximum, uniformity; /* lx, lx, lx; minimum / average, 0 if dark */
@@ -47,8 +47,8 @@ bool grid_sensors(arena *a, const study_grid *g, grid_result *out, lux_error *er
 
 /* Runs grid g of the scene's study. False, with *err, if memory is out, a points file is bad, or
  * (ERR_INTERRUPTED) the user stopped it before there was anything to tell. */
-bool grid_run(arena *a, const scene *s, const study_grid *g, const run_options *o,
-              grid_result *out, lux_error *err);
+bool grid_run(arena *a, const scene *s, const study_grid *g, const run_options *o, grid_result *out,
+              lux_error *err);
 
 /* One requirement of the study against what was got. */
 typedef struct grid_requirement {

@@ -67,7 +67,7 @@ bool grid_write_exr(const char *path, const scene *s, const grid_result *r, noti
                       .channels        = channels,
                       .attribute_count = r->interrupted ? count : count - 1,
                       .attributes      = attributes };
-        good = image_write_exr(path, &im, false, n, err);
+        good      = image_write_exr(path, &im, false, n, err);
     }
     arena_clear(&scratch);
     return good;

@@ -14,7 +14,8 @@ const char *output_study_name(const study *s)
     return slash ? slash + 1 : s->path;
 }
 
-static char *join(arena *a, const char *folder, const char *name, const char *extension, lux_error *err)
+static char *join(arena *a, const char *folder, const char *name, const char *extension,
+                  lux_error *err)
 {
     size_t bytes = strlen(folder) + strlen(name) + strlen(extension) + 3;
     char *path   = arena_array(a, char, bytes, err);
@@ -66,10 +67,13 @@ static bool check(arena *a, const study *s, const output_place *o, const char *n
         if (stat(path, &st) != 0)
             continue;
         if (!S_ISREG(st.st_mode))
-            return failed(err, ERR_ARGUMENT, "%s: is in the way of a result, and no plain file", path);
+            return failed(err, ERR_ARGUMENT, "%s: is in the way of a result, and no plain file",
+                          path);
         if (!o->overwrite && !(!o->folder && made_by(a, exr, s)))
-            return failed(err, ERR_ARGUMENT, "%s: is there already: --overwrite replaces it, -o "
-                          "puts the results elsewhere", path);
+            return failed(err, ERR_ARGUMENT,
+                          "%s: is there already: --overwrite replaces it, -o "
+                          "puts the results elsewhere",
+                          path);
     }
     return true;
 }

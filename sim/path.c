@@ -66,13 +66,13 @@ static int packets_of(const path_tracer *t) { return (t->alive + LANES - 1) / LA
 static void load_packets(path_tracer *t, uint32_t depth)
 {
     for (int k = 0; k < packets_of(t); k++) {
-        int i         = k * LANES;
-        t->active[k]  = (vlane_index() + i) < t->alive;
-        vint id       = vload_int(t->id + i);
-        vuint index   = vunsigned(vgather_int((const int32_t *)t->b->index, id));
-        vuint seed    = vunsigned(vgather_int((const int32_t *)t->b->seed, id));
-        t->sample[k]  = vsobol4(index, vhash_combine(seed, vunsigned(vsplat_int((int)depth))));
-        t->pick[k]    = t->sample[k].z;
+        int i             = k * LANES;
+        t->active[k]      = (vlane_index() + i) < t->alive;
+        vint id           = vload_int(t->id + i);
+        vuint index       = vunsigned(vgather_int((const int32_t *)t->b->index, id));
+        vuint seed        = vunsigned(vgather_int((const int32_t *)t->b->seed, id));
+        t->sample[k]      = vsobol4(index, vhash_combine(seed, vunsigned(vsplat_int((int)depth))));
+        t->pick[k]        = t->sample[k].z;
         t->at[k].position = load3(t->x, t->y, t->z, i);
         t->at[k].normal   = load3(t->nx, t->ny, t->nz, i);
         t->at[k].error    = vload(t->error + i);
@@ -100,7 +100,8 @@ static vrgb load_worth(const path_tracer *t, int k)
     return load3(t->worth[0], t->worth[1], t->worth[2], k * LANES);
 }
 
-/* ---- a step of all living paths ---------------------------------------------------------------- */
+/* ---- a step of all living paths ----------------------------------------------------------------
+ */
 
 /* Next-event estimation where the paths stand. */
 static void ask_lamps(path_tracer *t, bool beginning)
@@ -160,10 +161,10 @@ static void draw_directions(path_tracer *t, bool beginning)
         vmask goes         = t->active[k];
         vscatter next;
         if (beginning) {
-            next.wi = vcosine_about(at->normal, u->x, u->y);
+            next.wi = vwarp_cosine_about(at->normal, u->x, u->y);
         } else {
-            goes  = materials_scatter(s->materials, at->material, &wo, &at->normal, u->x, u->y,
-                                      goes, &next);
+            goes = materials_scatter(s->materials, at->material, &wo, &at->normal, u->x, u->y, goes,
+                                     &next);
             worth = vmul(worth, next.weight);
 
             /* Roulette: a path goes on as often as it is worth going */
@@ -185,8 +186,8 @@ static void go_on(path_tracer *t)
     for (int k = 0; k < n; k++) {
         int i        = k * LANES;
         t->active[k] = (vlane_index() + i) < t->alive;
-        t->rays[k]   = (vray){ load3(t->x, t->y, t->z, i), load3(t->nx, t->ny, t->nz, i),
-                               vsplat(INFINITY) };
+        t->rays[k] =
+            (vray){ load3(t->x, t->y, t->z, i), load3(t->nx, t->ny, t->nz, i), vsplat(INFINITY) };
     }
     t->ray_count += t->alive;
     world_first_hit(t->s->world, t->rays, t->active, n, RAYS_INCOHERENT, t->hits);
@@ -200,12 +201,12 @@ static void go_on(path_tracer *t)
         at.normal  = vselect3(back, vneg(at.normal), at.normal);
 
         float n3[3][LANES], o3[3][LANES], p3[3][LANES], error[LANES];
-        int32_t material[LANES];
+        int32_t made_of[LANES];
         store3(n3[0], n3[1], n3[2], 0, at.normal);
         store3(o3[0], o3[1], o3[2], 0, wo);
         store3(p3[0], p3[1], p3[2], 0, at.position);
         vstore(error, at.error);
-        vstore_int(material, at.material);
+        vstore_int(made_of, at.material);
         for (int bits = vbits(met); bits; bits &= bits - 1, kept++) {
             int i = __builtin_ctz((unsigned)bits), from = k * LANES + i;
             t->id[kept] = t->id[from];
@@ -215,7 +216,7 @@ static void go_on(path_tracer *t)
             t->nx[kept] = n3[0][i], t->ny[kept] = n3[1][i], t->nz[kept] = n3[2][i];
             t->ox[kept] = o3[0][i], t->oy[kept] = o3[1][i], t->oz[kept] = o3[2][i];
             t->error[kept]    = error[i];
-            t->material[kept] = material[i];
+            t->material[kept] = made_of[i];
         }
     }
     t->alive = kept;

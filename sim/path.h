@@ -22,8 +22,8 @@ enum { PATHS = 1024 }; /* at most at once; a multiple of every packet width */
  * and their sample. Given back: what they found, by the order in which they began. */
 typedef struct path_bundle {
     int count;
-    float x[PATHS], y[PATHS], z[PATHS]; /* m, where they begin */
-    float error[PATHS];                 /* m, of that place */
+    float x[PATHS], y[PATHS], z[PATHS];    /* m, where they begin */
+    float error[PATHS];                    /* m, of that place */
     float nx[PATHS], ny[PATHS], nz[PATHS]; /* unit normal of the lit side */
     uint32_t index[PATHS], seed[PATHS];    /* which sample of which scrambled set */
 

@@ -21,7 +21,7 @@ enum {
     SEEN, /* 1 where the ray meets a surface; the next are 0 elsewhere */
     DISTANCE,
     NORMAL,
-    ALBEDO = NORMAL + 3,
+    ALBEDO   = NORMAL + 3,
     CHANNELS = ALBEDO + 3,
 };
 _Static_assert((int)CHANNELS <= (int)MOST_CHANNELS, "a channel too many");
@@ -50,13 +50,13 @@ typedef struct view_run_state {
 /* Items are pixels tile by tile, so that those sampled together see the same things. */
 static void pixel_of(const camera *c, uint32_t item, int *x, int *y)
 {
-    int strip = TILE * c->width, row = (int)item / strip;    /* a row of tiles */
-    int high  = c->height - row * TILE < TILE ? c->height - row * TILE : TILE;
-    int in    = (int)item % strip, tile = in / (TILE * high); /* which tile of the row */
-    int wide  = c->width - tile * TILE < TILE ? c->width - tile * TILE : TILE;
-    int at    = in - tile * TILE * high;
-    *x        = tile * TILE + at % wide;
-    *y        = row * TILE + at / wide;
+    int strip = TILE * c->width, row = (int)item / strip; /* a row of tiles */
+    int high = c->height - row * TILE < TILE ? c->height - row * TILE : TILE;
+    int in = (int)item % strip, tile = in / (TILE * high); /* which tile of the row */
+    int wide = c->width - tile * TILE < TILE ? c->width - tile * TILE : TILE;
+    int at   = in - tile * TILE * high;
+    *x       = tile * TILE + at % wide;
+    *y       = row * TILE + at / wide;
 }
 
 static uint32_t seed_of(const view_run_state *v, const sample_id *id)
@@ -64,7 +64,8 @@ static uint32_t seed_of(const view_run_state *v, const sample_id *id)
     return hash_combine_u32(hash_combine_u32(v->seed, id->item), id->scramble);
 }
 
-/* ---- what the camera's rays meet ------------------------------------------------------------------- */
+/* ---- what the camera's rays meet
+ * ------------------------------------------------------------------- */
 
 static void trace_camera(view_run_state *v, view_scratch *w, const sample_id *ids, int count)
 {
@@ -103,11 +104,11 @@ static void begin_paths(view_run_state *v, view_scratch *w, const sample_id *ids
         vrgb albedo = materials_albedo(v->s->materials, at.material, met);
         vrgb glow   = materials_emission(v->s->materials, at.material, met);
         for (int i = 0; i < LANES && k * LANES + i < count; i++) {
-            int at_sample = k * LANES + i;
-            float *to     = values + at_sample;
-            bool seen     = vbits(met) >> i & 1;
-            to[SEEN * BUNDLE]     = seen;
-            to[DISTANCE * BUNDLE] = seen ? lane(w->hits[k].distance, i) : 0.0f;
+            int at_sample             = k * LANES + i;
+            float *to                 = values + at_sample;
+            bool seen                 = vbits(met) >> i & 1;
+            to[SEEN * BUNDLE]         = seen;
+            to[DISTANCE * BUNDLE]     = seen ? lane(w->hits[k].distance, i) : 0.0f;
             to[(NORMAL + 0) * BUNDLE] = seen ? lane(n.x, i) : 0.0f;
             to[(NORMAL + 1) * BUNDLE] = seen ? lane(n.y, i) : 0.0f;
             to[(NORMAL + 2) * BUNDLE] = seen ? lane(n.z, i) : 0.0f;
@@ -150,12 +151,14 @@ static void sample_pixels(void *context, int thread, const sample_id *ids, int c
             (float)LUMENS_PER_WATT * rgb_luminance((vec3){ e[0], e[1], e[2] });
     }
     for (int i = 0; i < count; i++) {
-        vec3 rgb = { values[RED * BUNDLE + i], values[GREEN * BUNDLE + i], values[BLUE * BUNDLE + i] };
+        vec3 rgb                       = { values[RED * BUNDLE + i], values[GREEN * BUNDLE + i],
+                                           values[BLUE * BUNDLE + i] };
         values[LUMINANCE * BUNDLE + i] = (float)LUMENS_PER_WATT * rgb_luminance(rgb);
     }
 }
 
-/* ---- a run --------------------------------------------------------------------------------------------- */
+/* ---- a run
+ * --------------------------------------------------------------------------------------------- */
 
 static bool make_planes(arena *a, view_result *out, lux_error *err)
 {
@@ -163,7 +166,7 @@ static bool make_planes(arena *a, view_result *out, lux_error *err)
                          &out->half_width,  &out->distance,    &out->normal[0],   &out->normal[1],
                          &out->normal[2],   &out->albedo[0],   &out->albedo[1],   &out->albedo[2] };
     for (size_t i = 0; i < sizeof planes / sizeof *planes; i++) {
-        *planes[i] = arena_array(a, float, (size_t)out->width * (size_t)out->height, err);
+        *planes[i] = arena_array(a, float, (size_t)out->width *(size_t)out->height, err);
         if (!*planes[i])
             return false;
     }
@@ -183,16 +186,17 @@ static void take_pixels(const view_run_state *v, const accuracy_result *got, vie
         double seen = mean[SEEN * n + from], length2 = 0.0;
         for (size_t c = 0; c < 3; c++) {
             out->radiance[c][to] = (float)(maintenance * mean[(RED + c) * n + from]);
-            out->albedo[c][to]   = seen > 0.0 ? (float)(mean[(ALBEDO + c) * n + from] / seen) : 0.0f;
+            out->albedo[c][to] = seen > 0.0 ? (float)(mean[(ALBEDO + c) * n + from] / seen) : 0.0f;
             length2 += mean[(NORMAL + c) * n + from] * mean[(NORMAL + c) * n + from];
         }
         for (size_t c = 0; c < 3; c++)
             out->normal[c][to] =
                 length2 > 0.0 ? (float)(mean[(NORMAL + c) * n + from] / sqrt(length2)) : 0.0f;
-        out->illuminance[to] = seen > 0.0 ? (float)(maintenance * mean[ILLUMINANCE * n + from] / seen) : 0.0f;
-        out->distance[to]    = seen > 0.0 ? (float)(mean[DISTANCE * n + from] / seen) : 0.0f;
-        out->half_width[to]  = (float)(maintenance * got->half_width[i]);
-        double luminance     = maintenance * mean[LUMINANCE * n + from];
+        out->illuminance[to] =
+            seen > 0.0 ? (float)(maintenance * mean[ILLUMINANCE * n + from] / seen) : 0.0f;
+        out->distance[to]   = seen > 0.0 ? (float)(mean[DISTANCE * n + from] / seen) : 0.0f;
+        out->half_width[to] = (float)(maintenance * got->half_width[i]);
+        double luminance    = maintenance * mean[LUMINANCE * n + from];
         if (luminance > 0.0)
             logs += log(luminance), bright += 1.0;
     }
@@ -248,10 +252,10 @@ bool view_run(arena *a, const scene *s, const study_view *view, const run_option
         v.seed = hash_combine_u32(v.seed, (uint32_t)(unsigned char)*c);
     if (!camera_of_view(s, view, &v.camera, err))
         return false;
-    *out = (view_result){ .view           = view,
-                          .width          = v.camera.width,
-                          .height         = v.camera.height,
-                          .asked          = isnan(o->accuracy) ? VIEW_DEFAULT_PERCENT / 100.0 : o->accuracy,
+    *out = (view_result){ .view   = view,
+                          .width  = v.camera.width,
+                          .height = v.camera.height,
+                          .asked  = isnan(o->accuracy) ? VIEW_DEFAULT_PERCENT / 100.0 : o->accuracy,
                           .interval_valid = true };
     progress_begin(o->progress, view->name);
     bool good = run(a, &scratch, &v, out, err);

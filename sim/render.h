@@ -11,11 +11,11 @@ enum { VIEW_DEFAULT_PERCENT = 10 };
 typedef struct view_result {
     const study_view *view;
     int width, height;
-    float *radiance[3];   /* W/(sr m^2), maintenance applied */
-    float *illuminance;   /* lx, on the surface seen */
-    float *half_width;    /* cd/m^2, of the luminance: half of its 95 % interval */
-    float *distance;      /* m, along the ray; 0 where nothing is seen */
-    float *normal[3];     /* unit, toward the eye; 0 where nothing is seen */
+    float *radiance[3]; /* W/(sr m^2), maintenance applied */
+    float *illuminance; /* lx, on the surface seen */
+    float *half_width;  /* cd/m^2, of the luminance: half of its 95 % interval */
+    float *distance;    /* m, along the ray; 0 where nothing is seen */
+    float *normal[3];   /* unit, toward the eye; 0 where nothing is seen */
     float *albedo[3];
 
     double asked, reached; /* accuracy: what was asked, what 98 % of the pixels have */

@@ -14,16 +14,16 @@
 #include "sim/study.h"
 
 typedef struct scene_material {
-    const char *name;      /* "room: walls" for those of the room */
-    vec3 reflectance;      /* of diffuse light */
-    vec3 emission;         /* cd/m^2 */
-    bool overridden;       /* by the study's materials */
+    const char *name; /* "room: walls" for those of the room */
+    vec3 reflectance; /* of diffuse light */
+    vec3 emission;    /* cd/m^2 */
+    bool overridden;  /* by the study's materials */
 } scene_material;
 
 typedef struct scene_light {
-    const char *name;  /* for reports: "downlight (4.ies)" */
-    dvec3 at;          /* m, in the user's frame; of a far one: where it shines to */
-    double lumens;     /* initial, dimming included; INFINITY: far away */
+    const char *name; /* for reports: "downlight (4.ies)" */
+    dvec3 at;         /* m, in the user's frame; of a far one: where it shines to */
+    double lumens;    /* initial, dimming included; INFINITY: far away */
 } scene_light;
 
 typedef struct scene_camera {
@@ -58,6 +58,9 @@ typedef struct scene {
 const scene *scene_new(arena *a, const study *s, int threads, notices *n, lux_error *err);
 
 /* A place of the user's frame in the scene's. */
-static inline vec3 scene_place(const scene *s, dvec3 p) { return d3_to_float(d3_sub(p, s->centre)); }
+static inline vec3 scene_place(const scene *s, dvec3 p)
+{
+    return d3_to_float(d3_sub(p, s->centre));
+}
 
 #endif

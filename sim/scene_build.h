@@ -19,10 +19,10 @@ typedef struct scene_build {
     const study *study;
     notices *notices;
     lux_error *err;
-    const gltf **files;        /* of study->scenes */
+    const gltf **files;             /* of study->scenes */
     const uint32_t *first_material; /* of each file, as the scene counts */
     list materials, material_info, lights, light_info, cameras;
-    dvec3 centre, low, high;   /* m, of the surfaces, in the user's frame */
+    dvec3 centre, low, high; /* m, of the surfaces, in the user's frame */
 } scene_build;
 
 /* The places of a study's scene entry: its k-th copy. */
@@ -32,6 +32,6 @@ transform scene_copy_place(const study_scene *s, int k);
 bool build_materials(scene_build *b); /* scene_materials.c */
 bool build_bounds(scene_build *b);    /* scene_world.c */
 world *build_world(scene_build *b, int threads);
-bool build_lights(scene_build *b);    /* scene_lights.c */
+bool build_lights(scene_build *b); /* scene_lights.c */
 
 #endif

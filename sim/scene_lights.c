@@ -35,12 +35,15 @@ static void warn_if_outside(const scene_build *b, study_where where, const char 
     if (empty || (at.x >= low.x && at.x <= high.x && at.y >= low.y && at.y <= high.y &&
                   at.z >= low.z && at.z <= high.z))
         return;
-    notice_add(b->notices, "%s:%d:%d: a %s at (%g, %g, %g) m lies outside the %s, (%g, %g, %g) to "
-               "(%g, %g, %g) m", b->study->path, where.line, where.column, what, at.x, at.y, at.z,
+    notice_add(b->notices,
+               "%s:%d:%d: a %s at (%g, %g, %g) m lies outside the %s, (%g, %g, %g) to "
+               "(%g, %g, %g) m",
+               b->study->path, where.line, where.column, what, at.x, at.y, at.z,
                room ? "room" : "scene", low.x, low.y, low.z, high.x, high.y, high.z);
 }
 
-/* ---- the study's own -------------------------------------------------------------------------- */
+/* ---- the study's own --------------------------------------------------------------------------
+ */
 
 static bool luminaire_factor(scene_build *b, const study_luminaire *l, const photometry *web,
                              double *factor)
@@ -55,7 +58,8 @@ static bool luminaire_factor(scene_build *b, const study_luminaire *l, const pho
         if (!(web->lamp_lumens > 0.0))
             return study_failed(b->study, l->where, b->err, ERR_ARGUMENT,
                                 "`lamp_lumens` cannot scale %s: its photometry is absolute (say "
-                                "`lumens`)", l->photometry);
+                                "`lumens`)",
+                                l->photometry);
         *factor *= l->lamp_lumens / web->lamp_lumens;
     }
     return true;
@@ -72,8 +76,9 @@ static const photometry *web_of(scene_build *b, int i, const photometry **webs)
 
 static bool add_luminaires(scene_build *b)
 {
-    const study *s          = b->study;
-    const photometry **webs = arena_array(b->a, const photometry *, (size_t)s->luminaire_count + 1, b->err);
+    const study *s = b->study;
+    const photometry **webs =
+        arena_array(b->a, const photometry *, (size_t)s->luminaire_count + 1, b->err);
     if (!webs)
         return false;
     for (int i = 0; i < s->luminaire_count; i++) {
@@ -82,7 +87,8 @@ static bool add_luminaires(scene_build *b)
         webs[i] = web_of(b, i, webs);
         if (!webs[i] || !luminaire_factor(b, l, webs[i], &factor))
             return false;
-        const char *file = strrchr(l->photometry, '/') ? strrchr(l->photometry, '/') + 1 : l->photometry;
+        const char *file =
+            strrchr(l->photometry, '/') ? strrchr(l->photometry, '/') + 1 : l->photometry;
         const char *name = l->name ? l->name : file;
         for (int k = 0; k < l->at_count; k++) {
             luminaire_desc d = { .position = d3_to_float(d3_sub(l->at[k], b->centre)),
@@ -116,7 +122,8 @@ static bool add_points(scene_build *b)
     return true;
 }
 
-/* ---- those of glTF files (KHR_lights_punctual) ------------------------------------------------ */
+/* ---- those of glTF files (KHR_lights_punctual) ------------------------------------------------
+ */
 
 static vec3 luminance_one(vec3 color)
 {
@@ -169,7 +176,8 @@ bool build_lights(scene_build *b)
         for (size_t i = 0; i < b->material_info.count; i++)
             glows |= m[i].emission.x > 0 || m[i].emission.y > 0 || m[i].emission.z > 0;
         if (!glows)
-            notice_add(b->notices, "%s: nothing gives light: every result will be 0 lx", b->study->path);
+            notice_add(b->notices, "%s: nothing gives light: every result will be 0 lx",
+                       b->study->path);
     }
     return true;
 }

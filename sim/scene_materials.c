@@ -17,10 +17,10 @@ static bool add(scene_build *b, const char *name, vec3 reflectance, vec3 emissio
             overridden  = true;
         }
     }
-    diffuse_desc d         = { reflectance, v3_scale(emission, 1.0f / (float)LUMENS_PER_WATT) };
-    const material **m     = list_new(&b->materials, b->a, const material *, b->err);
-    scene_material *info   = list_new(&b->material_info, b->a, scene_material, b->err);
-    const material *made   = m && info ? material_diffuse(b->a, &d, b->err) : NULL;
+    diffuse_desc d       = { reflectance, v3_scale(emission, 1.0f / (float)LUMENS_PER_WATT) };
+    const material **m   = list_new(&b->materials, b->a, const material *, b->err);
+    scene_material *info = list_new(&b->material_info, b->a, scene_material, b->err);
+    const material *made = m && info ? material_diffuse(b->a, &d, b->err) : NULL;
     if (!made)
         return false;
     *m    = made;
@@ -34,10 +34,12 @@ static void tell_what_is_left_out(scene_build *b, const char *file, const gltf_m
     if (m->metallic > 0.0f || m->roughness < 0.5f)
         notice_add(b->notices,
                    "%s: material \"%s\": gloss and metal are not supported yet: taken as matt, its "
-                   "base colour as reflectance", file, name);
-    if (m->transmission > 0.0f || m->cut)
-        notice_add(b->notices, "%s: material \"%s\": transparency is not supported yet: taken as opaque",
+                   "base colour as reflectance",
                    file, name);
+    if (m->transmission > 0.0f || m->cut)
+        notice_add(b->notices,
+                   "%s: material \"%s\": transparency is not supported yet: taken as opaque", file,
+                   name);
 }
 
 /* Each pattern must match something: a misspelt one would be ignored in silence. */

@@ -34,7 +34,10 @@ static void grow_by_file(scene_build *b, int i)
 }
 
 /* Rounded to whole metres, so that round coordinates stay round. */
-static double middle(double low, double high) { return low <= high ? round(0.5 * (low + high)) : 0; }
+static double middle(double low, double high)
+{
+    return low <= high ? round(0.5 * (low + high)) : 0;
+}
 
 bool build_bounds(scene_build *b)
 {
@@ -48,8 +51,8 @@ bool build_bounds(scene_build *b)
         grow_by_file(b, i);
     b->centre = (dvec3){ middle(b->low.x, b->high.x), middle(b->low.y, b->high.y),
                          middle(b->low.z, b->high.z) };
-    if (b->low.x <= b->high.x && !(d3_finite(b->low) && d3_finite(b->high) &&
-                                   d3_length(d3_sub(b->high, b->low)) < 1e9))
+    if (b->low.x <= b->high.x &&
+        !(d3_finite(b->low) && d3_finite(b->high) && d3_length(d3_sub(b->high, b->low)) < 1e9))
         return failed(b->err, ERR_ARGUMENT, "%s: the scene is larger than a million kilometres",
                       b->study->path);
     return true;
@@ -97,7 +100,7 @@ static bool bake(scene_build *b, baked *to, const mesh *m, const transform *plac
 {
     uint32_t base = to->position_count;
     for (uint32_t v = 0; v < m->position_count; v++) {
-        dvec3 p                           = transform_point(place, d3_from(m->positions[v]));
+        dvec3 p                             = transform_point(place, d3_from(m->positions[v]));
         to->positions[to->position_count++] = d3_to_float(d3_sub(p, b->centre));
     }
     bool mirrored = transform_determinant(place) < 0.0;
@@ -116,8 +119,8 @@ static bool bake(scene_build *b, baked *to, const mesh *m, const transform *plac
  * loses nothing in single precision. */
 static bool keep_mesh(scene_build *b, mesh *to, dvec3 *moved, const mesh *m, uint32_t first)
 {
-    vec3 *positions    = arena_array(b->a, vec3, m->position_count, b->err);
-    uint32_t *made_of  = arena_array(b->a, uint32_t, m->triangle_count, b->err);
+    vec3 *positions   = arena_array(b->a, vec3, m->position_count, b->err);
+    uint32_t *made_of = arena_array(b->a, uint32_t, m->triangle_count, b->err);
     if (!positions || !made_of)
         return false;
     dvec3 low = { INFINITY, INFINITY, INFINITY }, high = { -INFINITY, -INFINITY, -INFINITY };
@@ -157,10 +160,10 @@ static bool add_instances(scene_build *b, world_parts *w, int i)
                     world_instance *in = list_new(&w->instances, b->a, world_instance, b->err);
                     if (!in)
                         return false;
-                    transform copy = scene_copy_place(s, c);
-                    in->mesh       = w->mesh_count;
-                    in->place      = transform_product(&copy, &g->placements[k].place);
-                    dvec3 o = d3_sub(transform_point(&in->place, moved), b->centre);
+                    transform copy    = scene_copy_place(s, c);
+                    in->mesh          = w->mesh_count;
+                    in->place         = transform_product(&copy, &g->placements[k].place);
+                    dvec3 o           = d3_sub(transform_point(&in->place, moved), b->centre);
                     in->place.m[0][3] = o.x, in->place.m[1][3] = o.y, in->place.m[2][3] = o.z;
                 }
         }
@@ -177,7 +180,7 @@ static bool bake_singles(scene_build *b, baked *to, int i)
         const gltf_placement *p = &g->placements[k];
         if (times_placed(b, i, p->mesh) != 1)
             continue;
-        transform copy = scene_copy_place(s, 0);
+        transform copy     = scene_copy_place(s, 0);
         transform to_world = transform_product(&copy, &p->place);
         if (!bake(b, to, &g->meshes[p->mesh].triangles, &to_world, b->first_material[i]))
             return false;
@@ -239,7 +242,7 @@ world *build_world(scene_build *b, int threads)
             goto done;
     w.meshes[w.mesh_count++] = (mesh){ w.common.positions, w.common.corners, w.common.material,
                                        w.common.position_count, w.common.triangle_count };
-    world_instance *in = list_new(&w.instances, &scratch, world_instance, b->err);
+    world_instance *in       = list_new(&w.instances, &scratch, world_instance, b->err);
     if (!in)
         goto done;
     *in = (world_instance){ .place = TRANSFORM_IDENTITY };
@@ -247,11 +250,13 @@ world *build_world(scene_build *b, int threads)
         if (first_use(b, i) == i && !add_instances(&local, &w, i))
             goto done;
 
-    made = world_new(b->a, &(world_desc){ .meshes         = w.meshes,
-                                          .mesh_count     = w.mesh_count,
-                                          .instances      = w.instances.items,
-                                          .instance_count = (uint32_t)w.instances.count,
-                                          .threads        = threads }, b->err);
+    made = world_new(b->a,
+                     &(world_desc){ .meshes         = w.meshes,
+                                    .mesh_count     = w.mesh_count,
+                                    .instances      = w.instances.items,
+                                    .instance_count = (uint32_t)w.instances.count,
+                                    .threads        = threads },
+                     b->err);
 done:
     arena_clear(&scratch);
     return made;

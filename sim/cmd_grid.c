@@ -1,0 +1,178 @@
+/* sim/cmd_grid.c -- lux4 grid: how much light arrives on the study's grids. */
+#include "sim/command.h"
+#include "sim/grid_write.h"
+
+#include <string.h>
+
+static const char *const extensions[] = { ".csv", ".exr" };
+enum { EXTENSIONS = 2 };
+
+typedef struct totals {
+    double seconds;
+    int64_t rays;
+    bool enough, interrupted, interval_valid;
+    int printed;
+} totals;
+
+/* ---- as a table
+ * ------------------------------------------------------------------------------------ */
+
+static void print_table(const command_context *c, const scene *s, const grid_result *r, bool first)
+{
+    if (first)
+        printf("%-16s %8s %11s %11s %11s %8s %12s %9s\n", "grid", "sensors", "average/lx",
+               "minimum/lx", "maximum/lx", "min/avg", "half-width/%", "time/s");
+    double worst = 100.0 * r->worst_half_width;
+    printf("%-16s %8d %11.1f %11.1f %11.1f %8.3f %12.2f %9.2f\n", r->grid->name, r->sensor_count,
+           r->average, r->minimum, r->maximum, r->uniformity, worst, r->seconds);
+    double m = s->study->maintenance;
+    if (s->study->maintenance_given && m > 0.0 && m != 1.0)
+        printf("  initial        %8s %11.1f %11.1f %11.1f %8s   (above: maintained, factor %g)\n",
+               "", r->average / m, r->minimum / m, r->maximum / m, "", m);
+
+    grid_requirement asked[MOST_REQUIREMENTS];
+    int count = grid_requirements(r, asked);
+    for (int i = 0; i < count; i++)
+        printf("  %-10s asked %g%s%s, got %.4g%s%s: %s\n", asked[i].name, asked[i].asked,
+               asked[i].unit[0] ? " " : "", asked[i].unit, asked[i].got,
+               asked[i].unit[0] ? " " : "", asked[i].unit, asked[i].met ? "met" : "MISSED");
+    if (!r->enough)
+        printf("  accuracy: %d of %d sensors are not within %g %% yet\n", r->missed,
+               r->sensor_count, 100.0 * r->asked);
+    (void)c;
+}
+
+/* ---- as JSON
+ * --------------------------------------------------------------------------------------- */
+
+static void json_field(const char *name, double value)
+{
+    printf(",\"%s\":", name);
+    json_number(stdout, value);
+}
+
+static void print_json(const grid_result *r, bool first)
+{
+    fputs(first ? "{\"grids\":[{\"name\":" : ",{\"name\":", stdout);
+    json_string(stdout, r->grid->name);
+    json_field("sensors", r->sensor_count);
+    json_field("average_lx", r->average);
+    json_field("minimum_lx", r->minimum);
+    json_field("maximum_lx", r->maximum);
+    json_field("uniformity", r->uniformity);
+    json_field("average_half_width_lx", r->average_half_width);
+    json_field("worst_half_width_percent", 100.0 * r->worst_half_width);
+    json_field("sensors_missed", r->missed);
+    fputs(",\"requirements\":[", stdout);
+    grid_requirement asked[MOST_REQUIREMENTS];
+    int count = grid_requirements(r, asked);
+    for (int i = 0; i < count; i++) {
+        printf("%s{\"name\":\"%s\"", i ? "," : "", asked[i].name);
+        json_field("asked", asked[i].asked);
+        json_field("got", asked[i].got);
+        printf(",\"met\":%s}", asked[i].met ? "true" : "false");
+    }
+    fputs("]}", stdout);
+}
+
+static void print_json_end(const scene *s, const command_context *c, const totals *t)
+{
+    printf("%s]", t->printed ? "" : "{\"grids\":[");
+    json_field("seconds", t->seconds);
+    json_field("rays", (double)t->rays);
+    printf(",\"effects\":[%s%s]", s->light_count ? "\"shadows\"" : "",
+           c->line->direct_only ? ""
+           : s->light_count     ? ",\"interreflection\""
+                                : "\"interreflection\"");
+    printf(",\"interval_valid\":%s}\n", t->interval_valid ? "true" : "false");
+}
+
+/* ---- the command
+ * ------------------------------------------------------------------------------------- */
+
+static bool write_files(const command_context *c, const scene *s, const grid_result *r,
+                        lux_error *err)
+{
+    const output_place *o = &c->line->place;
+    const char *name      = r->grid->name;
+    const char *csv       = output_path(c->a, s->study, o, name, ".csv", err);
+    const char *exr       = csv ? output_path(c->a, s->study, o, name, ".exr", err) : NULL;
+    if (!exr || !grid_write_csv(csv, r, err) || !grid_write_exr(exr, s, r, c->notices, err))
+        return false;
+    if (!c->line->json)
+        printf("  written: %s, %s\n", csv, exr);
+    return true;
+}
+
+static int run_all(const command_context *c, const scene *s, totals *t, lux_error *err)
+{
+    run_options o = command_run_options(c);
+    for (int i = 0; i < s->study->grid_count; i++) {
+        grid_result r;
+        arena of_grid = { 0 };
+        int code      = EXIT_DONE;
+        if (!grid_run(&of_grid, s, &s->study->grids[i], &o, &r, err))
+            code = exit_code_of(err, true);
+        if (code == EXIT_DONE) {
+            terminal_clear(c->terminal);
+            if (c->line->json)
+                print_json(&r, i == 0);
+            else
+                print_table(c, s, &r, i == 0);
+            t->printed++;
+            if (!write_files(c, s, &r, err))
+                code = exit_code_of(err, false);
+            t->seconds += r.seconds;
+            t->rays += r.rays;
+            t->enough &= r.enough;
+            t->interval_valid &= r.interval_valid;
+            if (code == EXIT_DONE && r.interrupted) {
+                failed(err, ERR_INTERRUPTED, "interrupted: grid %s is less accurate than asked for",
+                       r.grid->name);
+                code = EXIT_INTERRUPTED;
+            }
+        }
+        arena_clear(&of_grid);
+        if (code != EXIT_DONE)
+            return code;
+    }
+    return EXIT_DONE;
+}
+
+static int grid_command(const command_context *c, lux_error *err)
+{
+    const scene *s = command_scene(c, err);
+    if (!s)
+        return exit_code_of(err, true);
+    if (s->study->grid_count == 0) {
+        failed(err, ERR_ARGUMENT, "%s: the study has no `grids`", s->study->path);
+        return EXIT_INPUT;
+    }
+    for (int i = 0; i < s->study->grid_count; i++)
+        if (!output_check(s->study, &c->line->place, s->study->grids[i].name, extensions,
+                          EXTENSIONS, err))
+            return exit_code_of(err, true);
+
+    totals t = { .enough = true, .interval_valid = true };
+    int code = run_all(c, s, &t, err);
+    if (c->line->json)
+        print_json_end(s, c, &t);
+    else if (t.printed)
+        printf("%.2f s, %.1f million rays\n", t.seconds, 1e-6 * (double)t.rays);
+    if (code == EXIT_DONE && !t.enough) {
+        failed(err, ERR_NONE, "the accuracy asked for was not reached in the time given");
+        code = EXIT_INACCURATE;
+    }
+    return code;
+}
+
+const command command_grid = {
+    .name    = "grid",
+    .files   = "STUDY.yaml",
+    .summary = "illuminance on the study's grids: a summary, and a .csv and .exr for each grid",
+    .help = "Illuminance is maintained illuminance where the study has `maintenance`. A sensor is\n"
+            "done when half of its 95 % confidence interval is at most the accuracy asked for,\n"
+            "of its value or of a tenth of the grid's average, whichever is more.\n",
+    .options = " -o --overwrite --accuracy --time --threads --seed --direct-only --json --quiet ",
+    .run     = grid_command,
+};

@@ -1,0 +1,106 @@
+/* sim/cmd_render.c -- lux4 render: the study's views as radiometric EXR and preview. */
+#include "sim/command.h"
+#include "sim/render.h"
+
+static const char *const extensions[] = { ".exr", ".png" };
+enum { EXTENSIONS = 2 };
+
+static void print_view(const command_context *c, const view_result *r, const char *exr,
+                       const char *png, bool first)
+{
+    if (c->line->json) {
+        fputs(first ? "{\"views\":[{\"name\":" : ",{\"name\":", stdout);
+        json_string(stdout, r->view->name);
+        printf(",\"width\":%d,\"height\":%d,\"log_average_cd_m2\":", r->width, r->height);
+        json_number(stdout, r->log_average);
+        fputs(",\"accuracy_percent\":", stdout);
+        json_number(stdout, 100.0 * r->reached);
+        fputs(",\"exr\":", stdout);
+        json_string(stdout, exr);
+        fputs(",\"png\":", stdout);
+        json_string(stdout, png);
+        printf(",\"seconds\":%.9g,\"rays\":%lld}", r->seconds, (long long)r->rays);
+        return;
+    }
+    if (first)
+        printf("%-16s %11s %14s %12s %9s %12s\n", "view", "pixels", "average/cd/m2", "accuracy/%",
+               "time/s", "rays/million");
+    char pixels[32];
+    snprintf(pixels, sizeof pixels, "%dx%d", r->width, r->height);
+    printf("%-16s %11s %14.2f %12.1f %9.2f %12.1f\n", r->view->name, pixels, r->log_average,
+           100.0 * r->reached, r->seconds, 1e-6 * (double)r->rays);
+    printf("  written: %s, %s\n", exr, png);
+}
+
+static int run_view(const command_context *c, const scene *s, const study_view *v, bool first,
+                    bool *enough, lux_error *err)
+{
+    arena of_view = { 0 };
+    view_result r;
+    run_options o   = command_run_options(c);
+    const char *exr = output_path(c->a, s->study, &c->line->place, v->name, ".exr", err);
+    const char *png =
+        exr ? output_path(c->a, s->study, &c->line->place, v->name, ".png", err) : NULL;
+    int code = EXIT_DONE;
+    if (!png || !view_run(&of_view, s, v, &o, &r, err))
+        code = exit_code_of(err, true);
+    if (code == EXIT_DONE) {
+        terminal_clear(c->terminal);
+        if (!view_write_exr(exr, s, &r, c->line->half, c->notices, err) ||
+            !view_write_png(png, &r, c->line->exposure_ev, err))
+            code = exit_code_of(err, false);
+        else
+            print_view(c, &r, exr, png, first);
+        *enough &= r.enough;
+        if (code == EXIT_DONE && r.interrupted) {
+            failed(err, ERR_INTERRUPTED, "interrupted: view %s is less accurate than asked for",
+                   v->name);
+            code = EXIT_INTERRUPTED;
+        }
+    }
+    arena_clear(&of_view);
+    return code;
+}
+
+static int render_command(const command_context *c, lux_error *err)
+{
+    const scene *s = command_scene(c, err);
+    if (!s)
+        return exit_code_of(err, true);
+    if (s->study->view_count == 0) {
+        failed(err, ERR_ARGUMENT, "%s: the study has no `views`", s->study->path);
+        return EXIT_INPUT;
+    }
+    for (int i = 0; i < s->study->view_count; i++) {
+        camera ignored;
+        const study_view *v = &s->study->views[i];
+        if (!camera_of_view(s, v, &ignored, err) ||
+            !output_check(s->study, &c->line->place, v->name, extensions, EXTENSIONS, err))
+            return exit_code_of(err, true);
+    }
+
+    bool enough = true;
+    int code    = EXIT_DONE;
+    for (int i = 0; i < s->study->view_count && code == EXIT_DONE; i++)
+        code = run_view(c, s, &s->study->views[i], i == 0, &enough, err);
+    if (c->line->json && code != EXIT_INPUT)
+        fputs("]}\n", stdout);
+    if (code == EXIT_DONE && !enough) {
+        failed(err, ERR_NONE, "the accuracy asked for was not reached in the time given");
+        code = EXIT_INACCURATE;
+    }
+    return code;
+}
+
+const command command_render = {
+    .name    = "render",
+    .files   = "STUDY.yaml",
+    .summary = "the study's views: radiometric .exr and tone-mapped .png",
+    .help    = "The EXR holds R G B in W/(sr m2) (times 179: cd/m2), illuminance.Y in lux on the\n"
+               "surface seen, halfWidth.Y in cd/m2, Z in metres along the ray (0: nothing seen),\n"
+               "normal.X/Y/Z and albedo.R/G/B. A view is done when 98 % of its pixels are within the\n"
+               "accuracy asked for, of their value or of a tenth of the picture's log-average.\n",
+    .options = " -o --overwrite --accuracy --time --threads --seed --direct-only --half --exposure "
+               "--json --quiet ",
+    .run     = render_command,
+};

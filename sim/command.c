@@ -1,0 +1,67 @@
+/* sim/command.c -- see command.h. */
+#include "sim/command.h"
+
+#include "core/parallel.h"
+#include "sim/accuracy.h"
+
+const scene *command_scene(const command_context *c, lux_error *err)
+{
+    if (c->line->file_count != 1)
+        return failed(err, ERR_ARGUMENT,
+                      c->line->file_count ? "one study at a time, please"
+                                          : "which study? (a .yaml file)");
+    const study *s = study_read(c->a, c->line->files[0], c->notices, err);
+    return s ? scene_new(c->a, s, command_threads(c), c->notices, err) : NULL;
+}
+
+int command_threads(const command_context *c)
+{
+    return c->line->threads ? c->line->threads : parallel_processors();
+}
+
+run_options command_run_options(const command_context *c)
+{
+    return (run_options){ .accuracy = c->line->accuracy,
+                          .deadline =
+                              isnan(c->line->seconds) ? HUGE_VAL : c->begun + c->line->seconds,
+                          .seed        = c->line->seed,
+                          .threads     = command_threads(c),
+                          .direct_only = c->line->direct_only,
+                          .progress    = c->progress };
+}
+
+int exit_code_of(const lux_error *err, bool reading)
+{
+    switch (err->code) {
+    case ERR_INTERRUPTED:
+        return EXIT_INTERRUPTED;
+    case ERR_MEMORY:
+        return EXIT_RUNTIME;
+    case ERR_IO:
+        return reading ? EXIT_INPUT : EXIT_RUNTIME;
+    default:
+        return EXIT_INPUT;
+    }
+}
+
+void json_string(FILE *to, const char *text)
+{
+    putc('"', to);
+    for (const unsigned char *c = (const unsigned char *)text; *c; c++) {
+        if (*c == '"' || *c == '\\')
+            fprintf(to, "\\%c", *c);
+        else if (*c < 0x20)
+            fprintf(to, "\\u%04x", *c);
+        else
+            putc(*c, to);
+    }
+    putc('"', to);
+}
+
+void json_number(FILE *to, double value)
+{
+    if (isfinite(value))
+        fprintf(to, "%.9g", value);
+    else
+        fputs("null", to);
+}

@@ -1,0 +1,82 @@
+/* sim/command.h -- what the commands of the program share: options, messages, exit codes. */
+#ifndef SIM_COMMAND_H
+#define SIM_COMMAND_H
+
+#include "core/notice.h"
+#include "sim/grid.h"
+#include "sim/output.h"
+#include "sim/terminal.h"
+
+#include <stdio.h>
+
+typedef enum exit_code {
+    EXIT_DONE        = 0,
+    EXIT_RUNTIME     = 1, /* disk full, no memory, lost file */
+    EXIT_INPUT       = 2, /* bad usage or input */
+    EXIT_INACCURATE  = 3, /* accuracy not reached in the time given */
+    EXIT_INTERRUPTED = 130,
+} exit_code;
+
+/* What the words of a command line came to. */
+typedef struct command_line {
+    const char *const *files; /* what is not an option, in order */
+    int file_count;
+    output_place place; /* -o, --overwrite */
+    int threads;        /* 0: as many as processors */
+    uint32_t seed;      /* 1 */
+    bool quiet, json, direct_only, half;
+    double accuracy;          /* 0.02 for 2%; NAN */
+    double seconds;           /* NAN */
+    double exposure_ev;       /* 0: as the picture's average asks */
+    const char *plot, *write; /* NULL */
+} command_line;
+
+/* What a command runs with. */
+typedef struct command_context {
+    const command_line *line;
+    arena *a;
+    notices *notices;
+    terminal *terminal; /* its line is to be cleared before something is printed */
+    progress *progress;
+    const volatile bool *stop; /* true once the user pressed Ctrl-C */
+    double begun;              /* s, on clock_seconds() */
+} command_context;
+
+/* One row of the table of commands: sim/main.c. */
+typedef struct command {
+    const char *name;
+    const char *files;   /* "STUDY.yaml", for the usage line */
+    const char *summary; /* one line */
+    const char *help;    /* what `lux4 help NAME` says besides usage and options */
+    const char *options; /* the long names of those that count here, each between blanks */
+    int (*run)(const command_context *c,
+               lux_error *err); /* an exit code; if not 0, *err may say why */
+} command;
+
+extern const command command_grid, command_render, command_check, command_photometry;
+
+/* Reads the words behind the command's name. False, with *err, for what cannot be. */
+bool command_line_read(arena *a, const command *c, int count, char *const *words, command_line *out,
+                       lux_error *err);
+
+/* The options that count for a command, one a line, as help shows them. */
+void command_options_print(FILE *to, const command *c);
+
+/* Opens the one study that the line names, and builds its scene. NULL, with *err. */
+const scene *command_scene(const command_context *c, lux_error *err);
+
+/* Threads to run on; and the options of a run. */
+int command_threads(const command_context *c);
+run_options command_run_options(const command_context *c);
+
+/* EXIT_INPUT or EXIT_RUNTIME (or EXIT_INTERRUPTED), by the kind of error and by whether the input
+ * was being read. */
+int exit_code_of(const lux_error *err, bool reading);
+
+/* A string as JSON, quotes included. */
+void json_string(FILE *to, const char *text);
+
+/* A number as JSON: null if it is not finite. */
+void json_number(FILE *to, double value);
+
+#endif

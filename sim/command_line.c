@@ -1,0 +1,191 @@
+/* sim/command_line.c -- the words of a command line, by one table of options. */
+#include "core/text.h"
+#include "sim/command.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct option {
+    const char *name, *value; /* value: NULL if it takes none */
+    const char *help;         /* NULL: of the contract, and not built yet */
+} option;
+
+/* Every option that users are promised. Those that are not built yet are refused by name. */
+static const option options[] = {
+    { "-o", "DIR", "put the results there (default: out/ beside the study)" },
+    { "--overwrite", NULL, "replace results that are there already" },
+    { "--accuracy", "P%", "95 % of the results within P of the truth (grid 2%, render 10%)" },
+    { "--time", "SECONDS", "stop after that time with what there is (exit code 3 if too early)" },
+    { "--threads", "N", "run on N threads (default: all processors)" },
+    { "--seed", "N", "another number, another set of random samples (default 1)" },
+    { "--direct-only", NULL, "leave interreflection out" },
+    { "--half", NULL, "write 16-bit floats" },
+    { "--exposure", "EV", "brighter or darker preview, in stops" },
+    { "--plot", "FILE.svg", "polar diagram, as data sheets have it" },
+    { "--write", "FILE", "convert to .ies or .ldt" },
+    { "--json", NULL, "results as one JSON object on stdout" },
+    { "--quiet", NULL, "no progress bar, no warnings" },
+    { "--groups", NULL, NULL },
+    { "--schedule", "", NULL },
+    { "--transport", "", NULL },
+    { "--save-maps", "", NULL },
+    { "--resume", NULL, NULL },
+    { "--tone", "", NULL },
+    { "--no", "", NULL },
+    { "--only", "", NULL },
+    { "--variant", "", NULL },
+    { "--false-color", "", NULL },
+};
+enum { OPTIONS = sizeof options / sizeof *options };
+
+static bool counts_for(const command *c, const char *name)
+{
+    char between[40];
+    snprintf(between, sizeof between, " %s ", name);
+    return strstr(c->options, between) != NULL;
+}
+
+void command_options_print(FILE *to, const command *c)
+{
+    for (int i = 0; i < OPTIONS; i++) {
+        const option *o = &options[i];
+        if (!o->help || !counts_for(c, o->name))
+            continue;
+        char both[40];
+        snprintf(both, sizeof both, "%s %s", o->name, o->value ? o->value : "");
+        fprintf(to, "  %-20s %s\n", both, o->help);
+    }
+}
+
+/* ---- values
+ * -------------------------------------------------------------------------------------- */
+
+static bool number(const char *option_name, const char *text, double low, double high,
+                   const char *wanted, double *out, lux_error *err)
+{
+    const char *end;
+    if (!text_number(text, &end, out) || *end || !(*out >= low && *out <= high))
+        return failed(err, ERR_ARGUMENT, "%s %s: expected %s", option_name, text, wanted);
+    return true;
+}
+
+static bool whole(const char *option_name, const char *text, double low, double high,
+                  const char *wanted, double *out, lux_error *err)
+{
+    if (!number(option_name, text, low, high, wanted, out, err))
+        return false;
+    if (*out != floor(*out))
+        return failed(err, ERR_ARGUMENT, "%s %s: expected %s", option_name, text, wanted);
+    return true;
+}
+
+static bool percent(const char *text, double *out, lux_error *err)
+{
+    const char *end;
+    bool good = text_number(text, &end, out);
+    while (good && *end == ' ')
+        end++;
+    if (!good || strcmp(end, "%") != 0 || !(*out > 0.0 && *out <= 100.0))
+        return failed(err, ERR_ARGUMENT, "--accuracy %s: expected a percentage, for instance 2%%",
+                      text);
+    *out /= 100.0;
+    return true;
+}
+
+static bool take(command_line *l, const char *name, const char *value, lux_error *err)
+{
+    double n;
+    if (!strcmp(name, "-o")) {
+        if (!value[0])
+            return failed(err, ERR_ARGUMENT, "-o: expected a folder");
+        l->place.folder = value;
+    } else if (!strcmp(name, "--accuracy")) {
+        return percent(value, &l->accuracy, err);
+    } else if (!strcmp(name, "--time")) {
+        return number(name, value, 0.0, 1e9, "seconds, 0 or more", &l->seconds, err);
+    } else if (!strcmp(name, "--exposure")) {
+        return !strcmp(value, "auto") ||
+               number(name, value, -30.0, 30.0, "stops from -30 to 30, or auto", &l->exposure_ev,
+                      err);
+    } else if (!strcmp(name, "--threads")) {
+        if (!whole(name, value, 1.0, 256.0, "a whole number from 1 to 256", &n, err))
+            return false;
+        l->threads = (int)n;
+    } else if (!strcmp(name, "--seed")) {
+        if (!whole(name, value, 0.0, 4294967295.0, "a whole number from 0 to 4294967295", &n, err))
+            return false;
+        l->seed = (uint32_t)n;
+    } else if (!strcmp(name, "--plot")) {
+        l->plot = value;
+    } else if (!strcmp(name, "--write")) {
+        l->write = value;
+    } else if (!strcmp(name, "--overwrite")) {
+        l->place.overwrite = true;
+    } else if (!strcmp(name, "--direct-only")) {
+        l->direct_only = true;
+    } else if (!strcmp(name, "--half")) {
+        l->half = true;
+    } else if (!strcmp(name, "--json")) {
+        l->json = true;
+    } else if (!strcmp(name, "--quiet")) {
+        l->quiet = true;
+    }
+    return true;
+}
+
+/* ---- words
+ * --------------------------------------------------------------------------------------- */
+
+static const option *find(const char *word, size_t length)
+{
+    for (int i = 0; i < OPTIONS; i++)
+        if (strlen(options[i].name) == length && !strncmp(options[i].name, word, length))
+            return &options[i];
+    return NULL;
+}
+
+/* An option, with its value behind = or as the next word; *at moves on to the last word used. */
+static bool read_option(const command *c, int count, char *const *words, int *at, command_line *out,
+                        lux_error *err)
+{
+    const char *word   = words[*at];
+    const char *equals = word[1] == '-' ? strchr(word, '=') : NULL;
+    const option *o    = find(word, equals ? (size_t)(equals - word) : strlen(word));
+    if (!o)
+        return failed(err, ERR_ARGUMENT, "unknown option %s (lux4 help %s lists them)", word,
+                      c->name);
+    if (!o->help)
+        return failed(err, ERR_UNSUPPORTED, "%s is not supported yet", o->name);
+    if (!counts_for(c, o->name))
+        return failed(err, ERR_ARGUMENT, "%s has no meaning for lux4 %s", o->name, c->name);
+    const char *value = "";
+    if (o->value && equals)
+        value = equals + 1;
+    else if (o->value && *at + 1 < count)
+        value = words[++*at];
+    else if (o->value)
+        return failed(err, ERR_ARGUMENT, "%s: expected %s behind it", o->name, o->value);
+    else if (equals)
+        return failed(err, ERR_ARGUMENT, "%s takes no value", o->name);
+    return take(out, o->name, value, err);
+}
+
+bool command_line_read(arena *a, const command *c, int count, char *const *words, command_line *out,
+                       lux_error *err)
+{
+    *out               = (command_line){ .seed = 1, .accuracy = NAN, .seconds = NAN };
+    const char **files = arena_array(a, const char *, (size_t)count + 1, err);
+    if (!files)
+        return false;
+    bool only_files = false;
+    for (int i = 0; i < count; i++) {
+        if (!only_files && !strcmp(words[i], "--"))
+            only_files = true;
+        else if (only_files || words[i][0] != '-' || !words[i][1])
+            files[out->file_count++] = words[i];
+        else if (!read_option(c, count, words, &i, out, err))
+            return false;
+    }
+    out->files = files;
+    return true;
+}

@@ -1,0 +1,51 @@
+/* sim/view_write.c -- the result of a view as files: render.h. */
+#include "core/color.h"
+#include "core/image.h"
+#include "sim/output.h"
+#include "sim/render.h"
+#include "sim/tone.h"
+
+bool view_write_exr(const char *path, const scene *s, const view_result *r, bool half, notices *n,
+                    lux_error *err)
+{
+    image_channel channels[] = {
+        { "R", r->radiance[0] },          { "G", r->radiance[1] },
+        { "B", r->radiance[2] },          { "illuminance.Y", r->illuminance },
+        { "halfWidth.Y", r->half_width }, { "Z", r->distance },
+        { "normal.X", r->normal[0] },     { "normal.Y", r->normal[1] },
+        { "normal.Z", r->normal[2] },     { "albedo.R", r->albedo[0] },
+        { "albedo.G", r->albedo[1] },     { "albedo.B", r->albedo[2] },
+    };
+    image_attribute attributes[] = {
+        { "whiteLuminance", ATTRIBUTE_FLOAT, NULL, (float)LUMENS_PER_WATT },
+        { "lux4:accuracy", ATTRIBUTE_FLOAT, NULL, (float)r->asked },
+        { "lux4:halfWidthUnit", ATTRIBUTE_STRING, "cd/m^2", 0 },
+        { "lux4:illuminanceUnit", ATTRIBUTE_STRING, "lx", 0 },
+        { "lux4:radianceUnit", ATTRIBUTE_STRING, "W/(sr m^2)", 0 },
+        { "lux4:study", ATTRIBUTE_STRING, output_study_name(s->study), 0 },
+        { "lux4:version", ATTRIBUTE_STRING, LUX4_VERSION, 0 },
+        { "lux4:view", ATTRIBUTE_STRING, r->view->name, 0 },
+        { "lux4:partial", ATTRIBUTE_STRING, "interrupted", 0 }, /* the last: left out else */
+    };
+    int count = sizeof attributes / sizeof *attributes;
+    image im  = { .width           = r->width,
+                  .height          = r->height,
+                  .channel_count   = sizeof channels / sizeof *channels,
+                  .channels        = channels,
+                  .attribute_count = r->interrupted ? count : count - 1,
+                  .attributes      = attributes };
+    return image_write_exr(path, &im, half, n, err);
+}
+
+bool view_write_png(const char *path, const view_result *r, double exposure_ev, lux_error *err)
+{
+    arena scratch  = { 0 };
+    uint8_t *rgb   = arena_array(&scratch, uint8_t, 3 * (size_t)r->width * (size_t)r->height, err);
+    tone_options o = { .exposure_ev = exposure_ev };
+    bool good      = rgb &&
+                tone_photographic(r->radiance[0], r->radiance[1], r->radiance[2], r->width,
+                                  r->height, &o, rgb, &scratch, err) &&
+                image_write_rgb8(path, r->width, r->height, rgb, err);
+    arena_clear(&scratch);
+    return good;
+}

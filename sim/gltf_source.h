@@ -1,0 +1,228 @@
+/* sim/gltf_source.h -- between the files of the glTF reader: what stands in a file, as plain C.
+ *
+ *     gltf_file.c       the bytes: .gltf or .glb, buffers, data: URIs, no way out of the folder
+ *     gltf_rules.c      the JSON against glTF's schema (gltf_json.c)
+ *     gltf_tinygltf.cpp the JSON as structures: only this file knows the library
+ *     gltf_access.c     accessors: buffer views, strides, sparse and normalised numbers
+ *     gltf_mesh.c       triangles          gltf_material.c  materials, mean colours of pictures
+ *     gltf_node.c       places             gltf.c           all of it in order, gltf_read()
+ *
+ * The library sees JSON alone: buffers, images, samplers, animations, skins and the indices of
+ * primitives are hidden from it, so that it opens no file, decodes nothing and refuses nothing
+ * that is no fault. Types and ranges of single values have been checked when a
+ * `source` is made; indices and sizes have not: who uses one, checks it.
+ */
+#ifndef SIM_GLTF_SOURCE_H
+#define SIM_GLTF_SOURCE_H
+
+#include "sim/gltf.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* An index that may be missing: -1. */
+typedef int32_t source_index;
+
+typedef struct source_buffer {
+    const char *uri; /* as in the JSON, between its quotes; NULL: the binary chunk of a .glb */
+    size_t uri_length;
+    size_t declared;      /* byteLength */
+    const uint8_t *bytes; /* `declared` of them; NULL: it has none, which is for its users to say */
+} source_buffer;
+
+typedef struct source_image {
+    const char *uri; /* as above; NULL: in a buffer view */
+    size_t uri_length;
+    source_index view;
+} source_image;
+
+typedef struct gltf_file {
+    const char *path; /* for messages */
+    arena *scratch;   /* what lives until the file has been read */
+    char *json;       /* ends with a NUL */
+    size_t json_size;
+    const uint8_t *chunk; /* the binary chunk of a .glb; NULL: none */
+    size_t chunk_size;
+    source_buffer *buffers; /* by gltf_file_check() */
+    source_image *images;
+    source_index *indices; /* of each primitive, mesh after mesh */
+    uint32_t buffer_count, image_count, primitive_count;
+    uint32_t buffer_room, image_room, primitive_room; /* in those lists */
+    uint32_t animation_count, skin_count;
+} gltf_file;
+
+typedef struct source_view {
+    source_index buffer;
+    size_t offset, length, stride; /* bytes; stride 0: none given */
+} source_view;
+
+typedef struct source_accessor {
+    source_index view;
+    size_t offset, count;
+    int component; /* glTF's number: 5120, ... */
+    int width;     /* components of an element, 1 .. 16 */
+    bool normalized, sparse;
+    size_t sparse_count, index_offset, value_offset;
+    source_index index_view, value_view;
+    int index_component;
+} source_accessor;
+
+typedef struct source_primitive {
+    int mode;
+    source_index position, indices, material;
+    bool colored, morphed; /* has COLOR_0, has targets */
+} source_primitive;
+
+typedef struct source_mesh {
+    const char *name;
+    const source_primitive *primitives;
+    uint32_t primitive_count;
+} source_mesh;
+
+typedef struct source_node {
+    const char *name;
+    source_index mesh, camera, light, skin;
+    const int *children;
+    uint32_t child_count;
+    bool has_matrix, instanced;
+    double matrix[16];                 /* columns */
+    double move[3], turn[4], scale[3]; /* turn: quaternion x y z w */
+    source_index instance_move, instance_turn, instance_scale;
+} source_node;
+
+typedef struct source_material {
+    const char *name;
+    double base_color[4], emission[3], metallic, roughness, strength, transmission;
+    source_index base_texture, surface_texture, emission_texture, transmission_texture;
+    bool cut;
+} source_material;
+
+typedef struct source_camera {
+    const char *name;
+    bool perspective;
+    double yfov, aspect, xmag, ymag;
+} source_camera;
+
+typedef struct source_light {
+    const char *name, *type;
+    double color[3], intensity, inner, outer;
+    bool ranged;
+} source_light;
+
+typedef struct source_scene {
+    const int *nodes;
+    uint32_t node_count;
+} source_scene;
+
+typedef struct source {
+    const source_view *views;
+    const source_accessor *accessors;
+    const source_mesh *meshes;
+    const source_node *nodes;
+    const source_material *materials;
+    const source_camera *cameras;
+    const source_light *lights;
+    const source_scene *scenes;
+    const source_index *textures;  /* the image of each */
+    const char **used, **required; /* extensions */
+    uint32_t view_count, accessor_count, mesh_count, node_count, material_count, camera_count,
+        light_count, scene_count, texture_count, used_count, required_count;
+    uint32_t ies_count, area_count; /* nodes with EXT_lights_ies, EXT_lights_area */
+    source_index scene;
+    const char *version, *least_version; /* of glTF: asset.version, asset.minVersion */
+    void *model; /* the library's; texts and lists above may point into it */
+} source;
+
+/* Reads the file and finds its JSON and its binary chunk. */
+bool gltf_file_open(gltf_file *f, const char *path, lux_error *err);
+
+/* Holds the JSON against the schema and takes from it what the library shall not see: it is
+ * hidden from the text. The bytes of buffers are still missing. */
+bool gltf_file_check(gltf_file *f, lux_error *err);
+
+/* Gets the bytes of all buffers. */
+bool gltf_file_buffers(gltf_file *f, lux_error *err);
+
+/* What a URI leads to: the bytes of a data: URI, or the file's path, *bytes being NULL then.
+ * `pointer` says where it stands. Files outside the scene's folder are refused. */
+bool gltf_file_locate(const gltf_file *f, const char *pointer, const char *uri, size_t length,
+                      const uint8_t **bytes, size_t *size, const char **path, lux_error *err);
+
+/* Makes structures of the JSON; whatever comes, source_close() ends them. */
+bool source_open(source *s, const gltf_file *f, lux_error *err);
+void source_close(source *s);
+
+/* What is left out or read as something simpler: counted, and told once a file, so that a file of
+ * a million points gives one line. gltf.c has the sentences. */
+typedef enum tally_kind {
+    TALLY_LINES,
+    TALLY_NO_POSITION,
+    TALLY_EMPTY,
+    TALLY_FLAT,
+    TALLY_SINGULAR,
+    TALLY_RANGE,
+    TALLY_TEXTURE,
+    TALLY_NO_PICTURE,
+    TALLY_COLOR,
+    TALLY_MORPH,
+    TALLY_SKIN,
+    TALLY_KINDS
+} tally_kind;
+
+typedef struct tally {
+    uint64_t count;
+    char first[100]; /* JSON pointer of the first one */
+} tally;
+
+/* The reader at work. */
+typedef struct reader {
+    const gltf_file *file;
+    const source *source;
+    arena *a; /* of the caller: results */
+    notices *notices;
+    gltf *out;
+    uint64_t triangles; /* so far */
+    tally tallies[TALLY_KINDS];
+} reader;
+
+void tally_add(reader *r, tally_kind kind, const char *pointer, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* Whether the index is there and below count; `pointer` and `what` are for the message. */
+bool index_valid(const reader *r, source_index i, uint32_t count, const char *what, lux_error *err,
+                 const char *pointer, ...) __attribute__((format(printf, 6, 7)));
+
+/* All buffer views and accessors lie within their buffers: after this the two below cannot
+ * reach outside. */
+bool accessors_check(const reader *r, lux_error *err);
+
+/* Whether the buffer behind a checked view has bytes. */
+bool view_has_bytes(const reader *r, source_index view, const char *pointer, lux_error *err);
+
+/* The elements of an accessor, in `into`, each `width` finite numbers, normalised where that is
+ * asked for. The accessor has this width, or it is an error. */
+const double *accessor_numbers(const reader *r, arena *into, source_index accessor, int width,
+                               const char *pointer, lux_error *err);
+
+/* The same for positions: floats, straight into out (3 an element); all are finite. */
+bool accessor_positions(const reader *r, source_index accessor, vec3 *out, const char *pointer,
+                        lux_error *err);
+
+/* Integers, each below `limit`, in `into`. */
+const uint32_t *accessor_indices(const reader *r, arena *into, source_index accessor,
+                                 uint32_t limit, const char *pointer, lux_error *err);
+
+/* Each makes its part of r->out. */
+bool read_meshes(reader *r, lux_error *err);
+bool read_materials(reader *r, lux_error *err);
+bool read_nodes(reader *r, lux_error *err); /* after the meshes; cameras and lights too */
+
+/* A copy in the result's arena. */
+const char *read_name(const reader *r, const char *name, lux_error *err);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -175,7 +175,7 @@ const study *study_parse(arena *a, const char *path, const char *text, size_t si
     if (!s || !(s->path = text_kept(a, path, err)) || !(s->folder = folder_of(a, path, err)))
         return NULL;
     s->maintenance = 1.0;
-    s->accuracy    = NAN;
+    s->accuracy    = (double)NAN;
 
     yaml_document_t tree;
     if (!yaml_guard_load(&tree, path, text, size, err))

@@ -101,11 +101,11 @@ static bool read_grid(const study_reader *r, const yaml_node_t *value, void *rec
 {
     study_grid *g = record;
     *g            = (study_grid){ .where              = study_node_where(value),
-                                  .spacing            = NAN,
-                                  .require_average    = NAN,
-                                  .require_minimum    = NAN,
-                                  .require_uniformity = NAN,
-                                  .height             = NAN };
+                                  .spacing            = (double)NAN,
+                                  .require_average    = (double)NAN,
+                                  .require_minimum    = (double)NAN,
+                                  .require_uniformity = (double)NAN,
+                                  .height             = (double)NAN };
     if (!study_read_map(r, value, &grid_keys, g))
         return false;
     for (const grid_form *f = grid_forms; f < grid_forms + GRID_FORMS; f++)

@@ -39,9 +39,9 @@ static bool read_luminaire(const study_reader *r, const yaml_node_t *value, void
     study_luminaire *l = record;
     *l                 = (study_luminaire){ .where       = study_node_where(value),
                                             .aim         = { 0, 0, -1 },
-                                            .lumens      = NAN,
-                                            .lamp_lumens = NAN,
-                                            .watts       = NAN,
+                                            .lumens      = (double)NAN,
+                                            .lamp_lumens = (double)NAN,
+                                            .watts       = (double)NAN,
                                             .emission    = plain_light };
     if (!study_read_map(r, value, &luminaire_keys, l))
         return false;
@@ -127,10 +127,10 @@ static bool read_light_type(const study_reader *r, const yaml_node_t *value, voi
 
 static bool read_light(const study_reader *r, const yaml_node_t *value, void *record)
 {
-    light_draft draft = {
-        .light  = { .where = study_node_where(value), .intensity = NAN, .emission = plain_light },
-        .lumens = NAN
-    };
+    light_draft draft = { .light  = { .where     = study_node_where(value),
+                                      .intensity = (double)NAN,
+                                      .emission  = plain_light },
+                          .lumens = (double)NAN };
 
     /* The type says which keys there are: it is read first, wherever it stands */
     const yaml_node_t *type = study_map_value(r, value, "type");

@@ -111,7 +111,7 @@ study_where study_node_where(const yaml_node_t *n);
 
 /* What a node is, short and printable: "`abc`", "a list of 3", "a mapping", "nothing". */
 typedef struct study_found {
-    char text[72];
+    char text[80];
 } study_found;
 study_found study_node_found(const yaml_node_t *n);
 

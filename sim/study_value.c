@@ -16,9 +16,9 @@ typedef struct range {
     const char *wanted; /* for messages */
 } range;
 
-static const range any         = { -INFINITY, INFINITY, false, "a number" };
-static const range nonnegative = { 0.0, INFINITY, false, "a number >= 0" };
-static const range positive    = { 0.0, INFINITY, true, "a number > 0" };
+static const range any         = { -(double)INFINITY, (double)INFINITY, false, "a number" };
+static const range nonnegative = { 0.0, (double)INFINITY, false, "a number >= 0" };
+static const range positive    = { 0.0, (double)INFINITY, true, "a number > 0" };
 static const range fraction    = { 0.0, 1.0, false, "a number from 0 to 1" };
 static const range share       = { 0.0, 1.0, true, "a number > 0 and at most 1" };
 static const range opening     = { 0.0, 180.0, true, "an angle > 0 and < 180 degrees" };

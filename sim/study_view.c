@@ -82,7 +82,7 @@ static bool read_view(const study_reader *r, const yaml_node_t *value, void *rec
     study_view *v = record;
     *v            = (study_view){ .where   = study_node_where(value),
                                   .fov_deg = 60.0,
-                                  .width_m = NAN,
+                                  .width_m = (double)NAN,
                                   .width   = 1024,
                                   .height  = 768 };
     return study_read_map(r, value, &view_keys, v) && view_is_whole(r, value, v);

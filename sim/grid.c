@@ -17,6 +17,9 @@ typedef struct thread_scratch {
     direct_scratch *direct;
     path_tracer *paths;
     path_bundle bundle;
+    vsurface at[DIRECT_PACKETS]; /* for direct_all() */
+    vmask active[DIRECT_PACKETS];
+    vrgb e[DIRECT_PACKETS];
 } thread_scratch;
 
 typedef struct grid_run_state {
@@ -89,36 +92,35 @@ static float place_error(vec3 p)
 /* ---- light that needs no samples
  * ----------------------------------------------------------------- */
 
+/* A packet of sensors, of which those behind the last are asleep. */
+static vmask place_sensors(const grid_run_state *g, int first, vsurface *at)
+{
+    float p[3][LANES], n[3][LANES], error[LANES];
+    for (int i = 0; i < LANES; i++) {
+        int j                  = first + i < g->r->sensor_count ? first + i : first;
+        const grid_sensor *one = &g->r->sensors[j];
+        vec3 place = scene_place(g->s, one->at), normal = d3_to_float(one->normal);
+        p[0][i] = place.x, p[1][i] = place.y, p[2][i] = place.z;
+        n[0][i] = normal.x, n[1][i] = normal.y, n[2][i] = normal.z;
+        error[i] = place_error(place);
+    }
+    *at = (vsurface){ .position = { vload(p[0]), vload(p[1]), vload(p[2]) },
+                      .normal   = { vload(n[0]), vload(n[1]), vload(n[2]) },
+                      .error    = vload(error) };
+    return (vlane_index() + first) < g->r->sensor_count;
+}
+
 static void direct_chunk(void *context, int item, int thread)
 {
     grid_run_state *g = context;
-    vsurface at[DIRECT_PACKETS];
-    vmask active[DIRECT_PACKETS];
-    vrgb e[DIRECT_PACKETS];
-    int first = item * DIRECT_PACKETS * LANES, count = g->r->sensor_count - first;
-    if (count > DIRECT_PACKETS * LANES)
-        count = DIRECT_PACKETS * LANES;
-    int packets = (count + LANES - 1) / LANES;
-
-    for (int k = 0; k < packets; k++) {
-        float p[3][LANES], n[3][LANES], error[LANES];
-        for (int i = 0; i < LANES; i++) {
-            int j                  = k * LANES + i < count ? first + k * LANES + i : first;
-            const grid_sensor *one = &g->r->sensors[j];
-            vec3 place = scene_place(g->s, one->at), normal = d3_to_float(one->normal);
-            p[0][i] = place.x, p[1][i] = place.y, p[2][i] = place.z;
-            n[0][i] = normal.x, n[1][i] = normal.y, n[2][i] = normal.z;
-            error[i] = place_error(place);
-        }
-        at[k]     = (vsurface){ .position = { vload(p[0]), vload(p[1]), vload(p[2]) },
-                                .normal   = { vload(n[0]), vload(n[1]), vload(n[2]) },
-                                .error    = vload(error) };
-        active[k] = (vlane_index() + k * LANES) < count;
-    }
-    direct_all(g->s, g->threads[thread].direct, at, active, packets, e);
-    for (int j = 0; j < count; j++)
+    thread_scratch *w = &g->threads[thread];
+    int first = item * DIRECT_PACKETS * LANES, packets = 0;
+    for (; packets < DIRECT_PACKETS && first + packets * LANES < g->r->sensor_count; packets++)
+        w->active[packets] = place_sensors(g, first + packets * LANES, &w->at[packets]);
+    direct_all(g->s, w->direct, w->at, w->active, packets, w->e);
+    for (int j = 0; j < packets * LANES && first + j < g->r->sensor_count; j++)
         g->direct[first + j] =
-            LUMENS_PER_WATT * (double)lane(vrgb_luminance(e[j / LANES]), j % LANES);
+            LUMENS_PER_WATT * (double)lane(vrgb_luminance(w->e[j / LANES]), j % LANES);
 }
 
 /* ---- light that is sampled

@@ -1,0 +1,85 @@
+/* core/trace.h -- inside a world: its parts, and what both ways of walking them share.
+ *
+ * Rays are walked as packets (trace_packet.c) or one by one, LANES triangles being tested at
+ * once (trace_single.c). Both do the same arithmetic in the same order for each ray, visit the
+ * same leaves and so find the same hits, to the bit.
+ *
+ * Planes have a width. The watertight test is exact, for triangles whose corners are rounded
+ * after they were moved to the ray: a ray may so meet a triangle by a hair's breadth outside of
+ * its cell. Rays go on both sides of a plane while they are within TRACE_WIDTH times the
+ * largest coordinate about (of box or origin) from it. Of 2^-24 times that, rounding of the
+ * distance to a plane makes up to 8 and of a corner up to 10 (three roundings each of |a - o|
+ * and of its shear, each of twice the coordinate).
+ */
+#ifndef CORE_TRACE_H
+#define CORE_TRACE_H
+
+#include "core/bsp.h"
+#include "core/world.h"
+
+#define TRACE_WIDTH 0x1p-19f
+
+/* Wald's record of a triangle: its plane solved for the coordinate k, and what gives the
+ * weights of corners 1 and 2 from the other two coordinates. */
+typedef struct projection {
+    float n_u, n_v, n_d;
+    int32_t k;
+    float b_u, b_v, b_d, c_u, c_v, c_d;
+} projection;
+
+typedef struct solid {
+    bsp tree;
+    const float *corners;          /* 9 a triangle */
+    const projection *projections; /* for TRIANGLE_PROJECTION, else NULL */
+    const uint32_t *material;      /* NULL: all 0 */
+    uint32_t triangle_count;
+} solid;
+
+typedef struct placed {
+    float to_mesh[3][4], to_world[3][4];
+    uint32_t mesh;
+    bool hollow, identity; /* identity: rays need not be transformed */
+} placed;
+
+struct world {
+    bsp tree; /* of instances */
+    const placed *instances;
+    const solid *meshes;
+    triangle_test test;
+    world_stats stats;
+};
+
+typedef enum query_kind { FIRST_HIT, ANY_HIT, ALL_HITS } query_kind;
+
+/* The hits of one packet for world_all_hits: hits[k] is hit k. */
+typedef struct hit_list {
+    vhit *hits;
+    int most;
+    int count[LANES];
+    bool stopped[LANES]; /* the last is not hollow */
+    bool dropped[LANES]; /* there was one more than `most` */
+} hit_list;
+
+typedef struct one_hit {
+    float t, u, v;
+    int32_t instance, triangle;
+    bool hollow;
+} one_hit;
+
+/* Where it belongs, unless it is there or lies behind one that is not hollow. */
+void hit_list_add(hit_list *l, int lane_number, const one_hit *h);
+void hit_list_clear(vhit *hit, int lane_number); /* a miss */
+
+/* Instances that a packet went through already. A few: of those about, it is the large ones
+ * that come again in many leaves. */
+enum { MAILBOXES = 8 };
+
+void trace_packet_first(const world *w, const vray *ray, vmask active, vhit *hit);
+void trace_packet_any(const world *w, const vray *ray, vmask active, vmask *blocked);
+void trace_packet_all(const world *w, const vray *ray, vmask active, hit_list *list);
+void trace_single_first(const world *w, const vray *ray, vmask active, vhit *hit);
+void trace_single_any(const world *w, const vray *ray, vmask active, vmask *blocked);
+
+void projection_make(const float *corners, projection *p);
+
+#endif

@@ -1,0 +1,373 @@
+/* core/trace_packet.c -- see trace.h: a packet of rays goes down the trees together.
+ *
+ * Lanes go together as long as they see the children of every node in the same order: a packet
+ * is walked once for each set of direction signs that it holds, in the upper tree and again in
+ * each mesh (where the instance may have turned the rays). A lane is in a node as long as its
+ * near distance is not beyond its far one; what a lane does never depends on the others.
+ */
+#include "core/triangle_test.h"
+
+#include <float.h>
+#include <string.h>
+
+#define INLINE static inline __attribute__((always_inline))
+
+/* ---- down a tree ---------------------------------------------------------------------------- */
+
+/* Rays as a tree sees them: a plane at x is crossed between x * inverse - later and
+ * x * inverse - sooner, its width included. */
+typedef struct vslabs {
+    vfloat inverse[3], later[3], sooner[3];
+    vfloat near, far; /* where in the box */
+    int back[3];      /* 1 where directions are negative: the upper child comes first */
+} vslabs;
+
+INLINE void slab_axis(vslabs *s, int axis, vfloat o, vfloat d, vfloat least, vfloat width)
+{
+    vfloat size      = vmax(vabs(d), least);
+    s->inverse[axis] = 1.0f / vcopysign(size, d);
+    vfloat w         = width * vabs(s->inverse[axis]);
+    vfloat middle    = o * s->inverse[axis];
+    s->later[axis]   = middle + w;
+    s->sooner[axis]  = middle - w;
+}
+
+INLINE void slab_cut(vslabs *s, int axis, float low, float high)
+{
+    float first = s->back[axis] ? high : low, last = s->back[axis] ? low : high;
+    s->near = vmax(first * s->inverse[axis] - s->later[axis], s->near);
+    s->far  = vmin(last * s->inverse[axis] - s->sooner[axis], s->far);
+}
+
+INLINE vfloat largest(vvec3 a) { return vmax(vabs(a.x), vmax(vabs(a.y), vabs(a.z))); }
+
+/* The lanes of active, which agree in their signs, in the tree's box. */
+INLINE vslabs slabs_make(const bsp *b, vvec3 o, vvec3 d, unsigned signs, vmask active, vfloat far)
+{
+    vslabs s     = { .back = { (int)(signs & 1), (int)(signs >> 1 & 1), (int)(signs >> 2 & 1) } };
+    vfloat box   = vmax(largest(vspread(b->low)), largest(vspread(b->high)));
+    vfloat width = TRACE_WIDTH * vmax(largest(o), box);
+    vfloat least = 0x1p-64f * largest(d); /* so that no inverse is infinite */
+    slab_axis(&s, 0, o.x, d.x, least, width);
+    slab_axis(&s, 1, o.y, d.y, least, width);
+    slab_axis(&s, 2, o.z, d.z, least, width);
+
+    s.near = vselect(active, vsplat(0.0f), vsplat(INFINITY));
+    s.far  = vselect(active, far, vsplat(-INFINITY));
+    slab_cut(&s, 0, b->low.x, b->high.x);
+    slab_cut(&s, 1, b->low.y, b->high.y);
+    slab_cut(&s, 2, b->low.z, b->high.z);
+    return s;
+}
+
+typedef struct later {
+    vfloat near, far;
+    const bsp_node *node;
+} later;
+
+/* Calls leaf(context, items, count, lanes) for the leaves that rays pass, each ray's from near
+ * to far, until its far is beyond *limit, which leaf may lower. */
+typedef void leaf_fn(void *context, const uint32_t *items, uint32_t count, vmask inside);
+
+INLINE void walk(const bsp *b, const vslabs *s, const vfloat *limit, leaf_fn *leaf, void *context)
+{
+    later stack[BSP_STACK];
+    later *top           = stack;
+    const bsp_node *node = b->nodes;
+    vfloat near = s->near, far = s->far;
+    if (!vany(near <= far))
+        return;
+    for (;;) {
+        uint32_t axis;
+        while ((axis = node->link & 3) != BSP_LEAF) {
+            vfloat at    = node->split * s->inverse[axis];
+            vfloat enter = vmax(at - s->later[axis], near); /* the second child */
+            vfloat leave = vmin(at - s->sooner[axis], far); /* the first child */
+            vmask first  = near <= leave;
+            vmask second = enter <= far;
+
+            const bsp_node *child = b->nodes + (node->link >> 2);
+            const bsp_node *other = child + (s->back[axis] ^ 1);
+            child += s->back[axis];
+            if (!vany(second)) {
+                node = child;
+                far  = leave;
+            } else if (!vany(first)) {
+                node = other;
+                near = enter;
+            } else {
+                *top++ = (later){ enter, far, other };
+                node   = child;
+                far    = leave;
+            }
+        }
+        if (node->link >> 2)
+            leaf(context, b->items + node->first, node->link >> 2, near <= far);
+        do {
+            if (top == stack)
+                return;
+            top--;
+            near = top->near;
+            far  = vmin(*limit, top->far);
+        } while (!vany(near <= far));
+        node = top->node;
+    }
+}
+
+/* ---- what is asked -------------------------------------------------------------------------- */
+
+typedef struct query {
+    const world *w;
+    const vray *ray;
+    vfloat limit; /* farther is of no use; -INFINITY: nothing is */
+    vint instance, triangle;
+    vfloat u, v;
+    hit_list *list;
+} query;
+
+/* One mesh, one set of signs. */
+typedef struct pass {
+    query *q;
+    const solid *mesh;
+    vshear shear;
+    int axis[3];       /* of the shear's x, y, z */
+    vfloat o[5], d[5]; /* x y z x y, for the projection test */
+    int32_t instance;
+    bool hollow;
+} pass;
+
+INLINE void accept(query_kind kind, pass *p, uint32_t triangle, vmask in, const vmeet *m)
+{
+    query *q = p->q;
+    if (kind == ANY_HIT) {
+        q->limit = vselect(in & (m->t < q->limit), vsplat(-INFINITY), q->limit);
+    } else if (kind == FIRST_HIT) {
+        vint instance = vsplat_int(p->instance), number = vsplat_int((int32_t)triangle);
+        vmask lower =
+            (instance < q->instance) | ((instance == q->instance) & (number < q->triangle));
+        in &= (m->t < q->limit) | lower;
+        q->limit    = vselect(in, m->t, q->limit);
+        q->instance = vselect_int(in, instance, q->instance);
+        q->triangle = vselect_int(in, number, q->triangle);
+        q->u        = vselect(in, m->u, q->u);
+        q->v        = vselect(in, m->v, q->v);
+    } else {
+        float limit[LANES];
+        vstore(limit, q->limit);
+        in &= m->t < q->ray->reach;
+        for (int i = 0; i < LANES; i++) {
+            if (!(vbits(in) >> i & 1))
+                continue;
+            one_hit h = { lane(m->t, i), lane(m->u, i),     lane(m->v, i),
+                          p->instance,   (int32_t)triangle, p->hollow };
+            hit_list_add(q->list, i, &h);
+            if (!h.hollow && h.t < limit[i])
+                limit[i] = h.t;
+        }
+        q->limit = vload(limit);
+    }
+}
+
+INLINE vmask test_triangle(const pass *p, bool watertight, uint32_t triangle, vmask inside,
+                           vmeet *m)
+{
+    if (watertight) {
+        const float *c  = p->mesh->corners + (size_t)9 * triangle;
+        vcorners corner = {
+            { vsplat(c[p->axis[0]]), vsplat(c[p->axis[1]]), vsplat(c[p->axis[2]]) },
+            { vsplat(c[p->axis[0] + 3]), vsplat(c[p->axis[1] + 3]), vsplat(c[p->axis[2] + 3]) },
+            { vsplat(c[p->axis[0] + 6]), vsplat(c[p->axis[1] + 6]), vsplat(c[p->axis[2] + 6]) }
+        };
+        return watertight_test(&p->shear, &corner, inside, p->q->limit, m);
+    }
+    const projection *t = &p->mesh->projections[triangle];
+    vprojection s       = { vsplat(t->n_u), vsplat(t->n_v), vsplat(t->n_d),
+                            vsplat(t->b_u), vsplat(t->b_v), vsplat(t->b_d),
+                            vsplat(t->c_u), vsplat(t->c_v), vsplat(t->c_d) };
+    vaxes r             = { { p->o[t->k], p->o[t->k + 1], p->o[t->k + 2] },
+                            { p->d[t->k], p->d[t->k + 1], p->d[t->k + 2] } };
+    return projection_test(&r, &s, inside, p->q->limit, m);
+}
+
+INLINE void triangle_leaf(query_kind kind, bool watertight, pass *p, const uint32_t *items,
+                          uint32_t count, vmask inside)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        vmeet m;
+        vmask in = test_triangle(p, watertight, items[i], inside, &m);
+        if (vany(in))
+            accept(kind, p, items[i], in, &m);
+    }
+}
+
+/* A leaf of triangles for each query and test: each is a walk of its own. */
+#define TRIANGLE_LEAF(name, kind, watertight)                                                      \
+    static inline void name(void *p, const uint32_t *items, uint32_t count, vmask inside)          \
+    {                                                                                              \
+        triangle_leaf(kind, watertight, p, items, count, inside);                                  \
+    }                                                                                              \
+    static void name##_walk(pass *p, const vslabs *s)                                              \
+    {                                                                                              \
+        walk(&p->mesh->tree, s, &p->q->limit, name, p);                                            \
+    }
+TRIANGLE_LEAF(first_watertight, FIRST_HIT, true)
+TRIANGLE_LEAF(any_watertight, ANY_HIT, true)
+TRIANGLE_LEAF(all_watertight, ALL_HITS, true)
+TRIANGLE_LEAF(first_projection, FIRST_HIT, false)
+TRIANGLE_LEAF(any_projection, ANY_HIT, false)
+TRIANGLE_LEAF(all_projection, ALL_HITS, false)
+
+typedef void walk_fn(pass *p, const vslabs *s);
+static walk_fn *const walks[2][3] = {
+    { first_watertight_walk, any_watertight_walk, all_watertight_walk },
+    { first_projection_walk, any_projection_walk, all_projection_walk },
+};
+
+/* ---- groups --------------------------------------------------------------------------------- */
+
+/* Signs of the direction (bits 0 to 2), and which of x, y, z is its largest (bits 3 and 4). */
+INLINE vint direction_code(vvec3 d)
+{
+    vfloat x = vabs(d.x), y = vabs(d.y), z = vabs(d.z);
+    vmask of_x = (x >= y) & (x >= z);
+    vmask of_z = ~of_x & ~(y >= z);
+    vint code  = vselect_int(of_x, vsplat_int(0), vselect_int(of_z, vsplat_int(16), vsplat_int(8)));
+    code |= vselect_int(vas_int(d.x) < 0, vsplat_int(1), vsplat_int(0));
+    code |= vselect_int(vas_int(d.y) < 0, vsplat_int(2), vsplat_int(0));
+    code |= vselect_int(vas_int(d.z) < 0, vsplat_int(4), vsplat_int(0));
+    return code;
+}
+
+static void walk_mesh(pass *p, query_kind kind, vvec3 o, vvec3 d, vmask lanes)
+{
+    const vfloat po[5] = { o.x, o.y, o.z, o.x, o.y }, pd[5] = { d.x, d.y, d.z, d.x, d.y };
+    memcpy(p->o, po, sizeof po);
+    memcpy(p->d, pd, sizeof pd);
+
+    vint code = direction_code(d);
+    int left  = vbits(lanes);
+    while (left) {
+        int32_t mine = lane(code, __builtin_ctz((unsigned)left));
+        vmask group  = lanes & (code == vsplat_int(mine));
+        left &= ~vbits(group);
+
+        int z      = mine >> 3;
+        p->axis[2] = z, p->axis[0] = (z + 1) % 3, p->axis[1] = (z + 2) % 3;
+        for (int k = 0; k < 3; k++)
+            p->shear.o[k] = po[p->axis[k]];
+        p->shear.s[0] = pd[z + 1] / pd[z];
+        p->shear.s[1] = pd[z + 2] / pd[z];
+        p->shear.s[2] = 1.0f / pd[z];
+        vslabs s      = slabs_make(&p->mesh->tree, o, d, (unsigned)mine & 7, group, p->q->limit);
+        walks[p->q->w->test == TRIANGLE_PROJECTION][kind](p, &s);
+    }
+}
+
+/* ---- instances ------------------------------------------------------------------------------ */
+
+INLINE vvec3 turned(const float m[3][4], vvec3 a)
+{
+    return (vvec3){ m[0][0] * a.x + m[0][1] * a.y + m[0][2] * a.z,
+                    m[1][0] * a.x + m[1][1] * a.y + m[1][2] * a.z,
+                    m[2][0] * a.x + m[2][1] * a.y + m[2][2] * a.z };
+}
+
+static void walk_instance(query *q, query_kind kind, uint32_t number, vmask lanes)
+{
+    const placed *at = &q->w->instances[number];
+    pass p           = {
+                  .q = q, .mesh = &q->w->meshes[at->mesh], .instance = (int32_t)number, .hollow = at->hollow
+    };
+    if (at->identity) {
+        walk_mesh(&p, kind, q->ray->origin, q->ray->direction, lanes);
+    } else {
+        vvec3 o    = turned(at->to_mesh, q->ray->origin);
+        vvec3 move = { vsplat(at->to_mesh[0][3]), vsplat(at->to_mesh[1][3]),
+                       vsplat(at->to_mesh[2][3]) };
+        walk_mesh(&p, kind, vadd(o, move), turned(at->to_mesh, q->ray->direction), lanes);
+    }
+}
+
+typedef struct upper {
+    query *q;
+    query_kind kind;
+    uint32_t instance[MAILBOXES]; /* number + 1 */
+    vmask done[MAILBOXES];
+} upper;
+
+static void instance_leaf(void *context, const uint32_t *items, uint32_t count, vmask inside)
+{
+    upper *u = context;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t box = items[i] % MAILBOXES;
+        vmask left   = inside;
+        if (u->instance[box] == items[i] + 1) {
+            left &= ~u->done[box];
+            u->done[box] |= inside;
+        } else {
+            u->instance[box] = items[i] + 1;
+            u->done[box]     = inside;
+        }
+        if (vany(left))
+            walk_instance(u->q, u->kind, items[i], left);
+    }
+}
+
+static void walk_world(query *q, query_kind kind, vmask active)
+{
+    const bsp *top = &q->w->tree;
+    if ((top->nodes->link & 3) == BSP_LEAF) {
+        for (uint32_t i = 0; i < top->nodes->link >> 2; i++)
+            walk_instance(q, kind, top->items[i], active);
+        return;
+    }
+    vint code = direction_code(q->ray->direction) & vsplat_int(7);
+    int left  = vbits(active);
+    while (left) {
+        int32_t mine = lane(code, __builtin_ctz((unsigned)left));
+        vmask group  = active & (code == vsplat_int(mine));
+        left &= ~vbits(group);
+        upper u = { .q = q, .kind = kind };
+        vslabs s =
+            slabs_make(top, q->ray->origin, q->ray->direction, (unsigned)mine, group, q->limit);
+        walk(top, &s, &q->limit, instance_leaf, &u);
+    }
+}
+
+/* ---- queries -------------------------------------------------------------------------------- */
+
+static query query_make(const world *w, const vray *ray, vmask active)
+{
+    vfloat most = vmin(ray->reach, vsplat(FLT_MAX)); /* what is infinitely far is not there */
+    return (query){ .w        = w,
+                    .ray      = ray,
+                    .limit    = vselect(active, most, vsplat(-INFINITY)),
+                    .instance = vsplat_int(-1),
+                    .triangle = vsplat_int(-1) };
+}
+
+void trace_packet_first(const world *w, const vray *ray, vmask active, vhit *hit)
+{
+    query q = query_make(w, ray, active);
+    walk_world(&q, FIRST_HIT, active);
+    vmask met     = q.instance >= vsplat_int(0);
+    hit->distance = vselect(met, q.limit, vsplat(INFINITY));
+    hit->instance = q.instance;
+    hit->triangle = q.triangle;
+    hit->u        = q.u;
+    hit->v        = q.v;
+}
+
+void trace_packet_any(const world *w, const vray *ray, vmask active, vmask *blocked)
+{
+    query q = query_make(w, ray, active);
+    walk_world(&q, ANY_HIT, active);
+    *blocked = active & (q.limit < 0.0f);
+}
+
+void trace_packet_all(const world *w, const vray *ray, vmask active, hit_list *list)
+{
+    query q = query_make(w, ray, active);
+    q.list  = list;
+    walk_world(&q, ALL_HITS, active);
+}

@@ -1,0 +1,72 @@
+/* core/triangle_test.c -- see triangle_test.h: what is rare, or done once a triangle. */
+#include "core/triangle_test.h"
+
+/* The sign of p x q, corners as the ray sees them, given its value; of the ray moved aside by
+ * (e, e^2) where that is 0: (p - m) x (q - m) = p x q + e (py - qy) + e^2 (qx - px). */
+static int edge_sign(double cross, double px, double py, double qx, double qy)
+{
+    double by = cross != 0.0 ? cross : py != qy ? py - qy : qx - px;
+    return (by > 0.0) - (by < 0.0);
+}
+
+vmask watertight_edge(const vedges *e, vfloat sz, vmask which, vmeet *m)
+{
+    float t[LANES], u[LANES], v[LANES];
+    vmask in = ~ALL_LANES;
+    for (int i = 0; i < LANES; i++) {
+        t[i] = lane(m->t, i), u[i] = lane(m->u, i), v[i] = lane(m->v, i);
+        if (!(vbits(which) >> i & 1))
+            continue;
+        double ax = (double)lane(e->ax, i), ay = (double)lane(e->ay, i);
+        double bx = (double)lane(e->bx, i), by = (double)lane(e->by, i);
+        double cx = (double)lane(e->cx, i), cy = (double)lane(e->cy, i);
+
+        double fu  = cx * by - cy * bx;
+        double fv  = ax * cy - ay * cx;
+        double fw  = bx * ay - by * ax;
+        double det = fu + fv + fw;
+        int su     = edge_sign(fu, cx, cy, bx, by);
+        int sv     = edge_sign(fv, ax, ay, cx, cy);
+        int sw     = edge_sign(fw, bx, by, ax, ay);
+        if (det == 0.0 || su != sv || sv != sw)
+            continue;
+
+        double along =
+            fu * (double)lane(e->az, i) + fv * (double)lane(e->bz, i) + fw * (double)lane(e->cz, i);
+        t[i] = (float)(along * (double)lane(sz, i) / det);
+        u[i] = (float)(fv / det);
+        v[i] = (float)(fw / det);
+        in |= vlane_index() == i;
+    }
+    *m = (vmeet){ vload(t), vload(u), vload(v) };
+    return in & which;
+}
+
+void projection_make(const float *p, projection *out)
+{
+    double a[3], b[3], n[3]; /* edges to corners 1 and 2, and across both */
+    for (int k = 0; k < 3; k++) {
+        a[k] = (double)p[3 + k] - (double)p[k];
+        b[k] = (double)p[6 + k] - (double)p[k];
+    }
+    for (int k = 0; k < 3; k++)
+        n[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+    int k = fabs(n[0]) > fabs(n[1]) ? 0 : 1;
+    k     = fabs(n[2]) > fabs(n[k]) ? 2 : k;
+    int u = (k + 1) % 3, v = (k + 2) % 3;
+
+    /* h = H - corner 0 in (u, v): the weights are (h x b) / (a x b) and (a x h) / (a x b) */
+    double pu = (double)p[u], pv = (double)p[v], s = 1.0 / n[k];
+    *out = (projection){
+        .n_u = (float)(n[u] * s),
+        .n_v = (float)(n[v] * s),
+        .n_d = (float)((double)p[k] + (n[u] * pu + n[v] * pv) * s),
+        .k   = k,
+        .b_u = (float)(b[v] * s),
+        .b_v = (float)(-b[u] * s),
+        .b_d = (float)((pv * b[u] - pu * b[v]) * s),
+        .c_u = (float)(-a[v] * s),
+        .c_v = (float)(a[u] * s),
+        .c_d = (float)((pu * a[v] - pv * a[u]) * s),
+    };
+}

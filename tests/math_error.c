@@ -10,7 +10,7 @@ const math_function math_functions[MATH_FUNCTIONS] = {
     { "sin", vsin, sin, -1000.0f, 1000.0f, INFINITY, 0x1p-23 },
     { "cos", vcos, cos, -1000.0f, 1000.0f, INFINITY, 0x1p-23 },
     { "asin", vasin, asin, -1.0f, 1.0f, 3.0, INFINITY },
-    { "acos", vacos, acos, -1.0f, 1.0f, 3.0, INFINITY },
+    { "acos", vacos, acos, -1.0f, 1.0f, 2.0, INFINITY },
 };
 
 double float_spacing(double a)

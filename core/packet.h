@@ -167,10 +167,17 @@ static inline vfloat vround(vfloat a)
 static inline vfloat vmin(vfloat a, vfloat b) { return _mm_min_ps(a, b); }
 static inline vfloat vmax(vfloat a, vfloat b) { return _mm_max_ps(a, b); }
 static inline int vbits(vmask m) { return _mm_movemask_ps((__m128)m); }
-static inline vuint vreverse_bytes(vuint a)
+static inline vuint vreverse_bits(vuint a)
 {
+    /* Bytes in reverse, then each half byte looked up: its bits in reverse, in the other half */
     const __m128i order = _mm_set_epi8(12, 13, 14, 15, 8, 9, 10, 11, 4, 5, 6, 7, 0, 1, 2, 3);
-    return (vuint)_mm_shuffle_epi8((__m128i)a, order);
+    const __m128i upper = _mm_set_epi64x((int64_t)0xf070b030d0509010, (int64_t)0xe060a020c0408000);
+    const __m128i lower = _mm_set_epi64x(0x0f070b030d050901, 0x0e060a020c040800);
+    const __m128i half  = _mm_set1_epi8(0x0f);
+    __m128i bytes       = _mm_shuffle_epi8((__m128i)a, order);
+    __m128i low         = _mm_and_si128(bytes, half);
+    __m128i high        = _mm_and_si128(_mm_srli_epi16(bytes, 4), half);
+    return (vuint)(_mm_shuffle_epi8(upper, low) | _mm_shuffle_epi8(lower, high));
 }
 #elif PACKET_WIDTH == 8 && defined __AVX2__
 #include <immintrin.h>
@@ -183,10 +190,18 @@ static inline vfloat vround(vfloat a)
 static inline vfloat vmin(vfloat a, vfloat b) { return _mm256_min_ps(a, b); }
 static inline vfloat vmax(vfloat a, vfloat b) { return _mm256_max_ps(a, b); }
 static inline int vbits(vmask m) { return _mm256_movemask_ps((__m256)m); }
-static inline vuint vreverse_bytes(vuint a)
+static inline vuint vreverse_bits(vuint a)
 {
+    /* Bytes in reverse, then each half byte looked up: its bits in reverse, in the other half */
     const __m128i order = _mm_set_epi8(12, 13, 14, 15, 8, 9, 10, 11, 4, 5, 6, 7, 0, 1, 2, 3);
-    return (vuint)_mm256_shuffle_epi8((__m256i)a, _mm256_broadcastsi128_si256(order));
+    const __m128i upper = _mm_set_epi64x((int64_t)0xf070b030d0509010, (int64_t)0xe060a020c0408000);
+    const __m128i lower = _mm_set_epi64x(0x0f070b030d050901, 0x0e060a020c040800);
+    const __m256i half  = _mm256_set1_epi8(0x0f);
+    __m256i bytes       = _mm256_shuffle_epi8((__m256i)a, _mm256_broadcastsi128_si256(order));
+    __m256i low         = _mm256_and_si256(bytes, half);
+    __m256i high        = _mm256_and_si256(_mm256_srli_epi16(bytes, 4), half);
+    return (vuint)(_mm256_shuffle_epi8(_mm256_broadcastsi128_si256(upper), low) |
+                   _mm256_shuffle_epi8(_mm256_broadcastsi128_si256(lower), high));
 }
 #else /* one lane, or another processor */
 static inline vfloat vsqrt(vfloat a)
@@ -219,20 +234,15 @@ static inline int vbits(vmask m)
         bits |= (lane(m, i) & 1) << i;
     return bits;
 }
-static inline vuint vreverse_bytes(vuint a)
-{
-    a = (a >> 16) | (a << 16);
-    return ((a >> 8) & 0x00ff00ff) | ((a & 0x00ff00ff) << 8);
-}
-#endif
-
 static inline vuint vreverse_bits(vuint a)
 {
-    a = vreverse_bytes(a);
+    a = (a >> 16) | (a << 16);
+    a = ((a >> 8) & 0x00ff00ff) | ((a & 0x00ff00ff) << 8);
     a = ((a >> 4) & 0x0f0f0f0f) | ((a & 0x0f0f0f0f) << 4);
     a = ((a >> 2) & 0x33333333) | ((a & 0x33333333) << 2);
     return ((a >> 1) & 0x55555555) | ((a & 0x55555555) << 1);
 }
+#endif
 
 /* Over all lanes; vsum adds from lane 0 upward. */
 static inline bool vany(vmask m) { return vbits(m) != 0; }

@@ -15,7 +15,7 @@ static double gamma_tail(double a, double x)
         return 1.0 - front * sum;
     }
 
-    double b = x + 1.0 - a, c = INFINITY, d = 1.0 / b, fraction = d;
+    double b = x + 1.0 - a, c = HUGE_VAL, d = 1.0 / b, fraction = d;
     for (int i = 1; i < 100000; i++) {
         double an = -i * (i - a);
         b += 2.0;

@@ -5,15 +5,16 @@
 enum { MOST_THREADS = 256, CHUNK = 1 << 20 };
 
 const math_function math_functions[MATH_FUNCTIONS] = {
-    { "log2", vlog2, log2, 0x1p-149f, 3.40282347e38f, 2.0, INFINITY },
-    { "exp2", vexp2, exp2, -150.0f, 127.999992f, 2.0, INFINITY },
-    { "sin", vsin, sin, -1000.0f, 1000.0f, INFINITY, 0x1p-23 },
-    { "cos", vcos, cos, -1000.0f, 1000.0f, INFINITY, 0x1p-23 },
-    { "asin", vasin, asin, -1.0f, 1.0f, 3.0, INFINITY },
-    { "acos", vacos, acos, -1.0f, 1.0f, 2.0, INFINITY },
+    { "log2", vlog2, log2, 0x1p-149f, 3.40282347e38f, 2.0, HUGE_VAL },
+    { "exp2", vexp2, exp2, -150.0f, 127.999992f, 2.0, HUGE_VAL },
+    { "sin", vsin, sin, -1000.0f, 1000.0f, HUGE_VAL, 0x1p-23 },
+    { "cos", vcos, cos, -1000.0f, 1000.0f, HUGE_VAL, 0x1p-23 },
+    { "asin", vasin, asin, -1.0f, 1.0f, 3.0, HUGE_VAL },
+    { "acos", vacos, acos, -1.0f, 1.0f, 2.0, HUGE_VAL },
 };
 
-double float_spacing(double a)
+/* The distance of floats at a, which is 2^-149 for denormals. */
+static double float_spacing(double a)
 {
     int exponent;
     frexp(a, &exponent);

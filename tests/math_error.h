@@ -10,7 +10,7 @@ typedef struct math_function {
     vfloat (*packet)(vfloat);
     double (*exact)(double);
     float low, high;
-    double most_ulps, most_absolute; /* what packet_math.h promises; INFINITY: promises nothing */
+    double most_ulps, most_absolute; /* what packet_math.h promises; HUGE_VAL: nothing */
 } math_function;
 
 /* All of them, with what packet_math.h promises. */
@@ -25,9 +25,6 @@ typedef struct math_error {
 
 /* Over every stride-th float, on as many threads as there are processors. */
 math_error math_measure(const math_function *f, int64_t stride);
-
-/* The distance of floats at a, which is 2^-149 for denormals. */
-double float_spacing(double a);
 
 /* Over `pairs` pairs of floats. atan2: all floats, half of the pairs no more than 2^8 apart, in
  * ulps. pow: x in (0, inf), y such that |log2(x^y)| <= 126, as relative error divided by

@@ -1,4 +1,5 @@
 /* tests/folder.c -- a folder for a test's files, that goes again; studies from a text. */
+#define _GNU_SOURCE
 #include "tests/folder.h"
 
 #include "tests/test.h"

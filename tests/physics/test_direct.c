@@ -2,6 +2,8 @@
 #include "tests/folder.h"
 #include "tests/test.h"
 
+#include <stdio.h>
+
 /* E = I h / d^3 on a plane h below a point of I cd, no walls. The
  * offsets and values are those published for CIE 171:2006 test case 5.2 (isotropic source). */
 TEST(a_point_follows_the_inverse_square_and_the_cosine)

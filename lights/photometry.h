@@ -130,6 +130,13 @@ typedef struct photometry_figures {
  * 1.02, an output that differs by more than 5 % from the one stated. path is for messages. */
 photometry_figures photometry_figure(const photometry *p, const char *path, notices *n);
 
+/* Writes p to path as LM-63-2002 (.ies) or EULUMDAT (.ldt), as the name ends; whole or not at all.
+ * C planes and light stay where they are, whatever the format: a study gives the same result
+ * with either. So does the opening: as its length lies along C0 in one format and along C90 in
+ * the other, length and width are exchanged between them. What a format has no word for is said
+ * in n (may be NULL). */
+bool photometry_write(const photometry *p, const char *path, notices *n, lux_error *err);
+
 const char *photometry_format_name(photometry_format f);     /* "LM-63-2002" */
 const char *photometry_symmetry_name(photometry_symmetry s); /* "C0-C180" */
 const char *opening_shape_name(opening_shape s);             /* "disc" */

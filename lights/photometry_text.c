@@ -1,6 +1,7 @@
 /* lights/photometry_text.c -- lines, words and numbers of photometric files; see
  * photometry_parts.h. The bytes end in a NUL, so one byte beyond any other may be looked at. */
 #include "core/text.h"
+#include "core/utf8.h"
 #include "lights/photometry_parts.h"
 
 #include <stdio.h>
@@ -151,34 +152,10 @@ bool scan_begins(const char *text, size_t length, const char *word)
     return true;
 }
 
-/* Bytes of the UTF-8 character that s begins with, of `left`; 0 if it is none (RFC 3629). */
-static size_t utf8_length(const unsigned char *s, size_t left)
-{
-    static const struct {
-        unsigned char least, most, second_least, second_most;
-        size_t length;
-    } forms[] = {
-        { 0xc2, 0xdf, 0x80, 0xbf, 2 }, { 0xe0, 0xe0, 0xa0, 0xbf, 3 }, { 0xe1, 0xec, 0x80, 0xbf, 3 },
-        { 0xed, 0xed, 0x80, 0x9f, 3 }, { 0xee, 0xef, 0x80, 0xbf, 3 }, { 0xf0, 0xf0, 0x90, 0xbf, 4 },
-        { 0xf1, 0xf3, 0x80, 0xbf, 4 }, { 0xf4, 0xf4, 0x80, 0x8f, 4 },
-    };
-    if (s[0] < 0x80)
-        return 1;
-    for (size_t i = 0; i < sizeof forms / sizeof *forms; i++) {
-        if (s[0] < forms[i].least || s[0] > forms[i].most || left < forms[i].length)
-            continue;
-        bool good = s[1] >= forms[i].second_least && s[1] <= forms[i].second_most;
-        for (size_t j = 2; j < forms[i].length; j++)
-            good = good && (s[j] & 0xc0) == 0x80;
-        return good ? forms[i].length : 0;
-    }
-    return 0;
-}
-
 static bool is_utf8(const char *text, size_t length)
 {
     for (size_t i = 0; i < length;) {
-        size_t n = utf8_length((const unsigned char *)text + i, length - i);
+        size_t n = utf8_length(text + i, length - i);
         if (n == 0)
             return false;
         i += n;

@@ -129,9 +129,10 @@ static transform from_trs(const double move[3], const double q[4], const double 
     return t;
 }
 
+/* Whether a matrix, and its determinant, can be reckoned with. */
 static bool is_finite(const transform *t)
 {
-    double sum = 0;
+    double sum = transform_determinant(t) * 0.0;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 4; j++)
             sum += t->m[i][j] * 0.0; /* NaN if one of them is not finite */

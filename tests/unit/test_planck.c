@@ -38,6 +38,24 @@ TEST(every_color_has_luminance_1_and_no_negative_channel)
     }
 }
 
+/* Back by the matrix of BT.709's primaries and white (SMPTE RP 177). From 2000 K on all three
+ * channels are above 0. */
+TEST(colors_have_the_chromaticity_of_their_temperature)
+{
+    for (double t = 2000.0; t <= 25000.0; t += 500.0) {
+        vec3 c;
+        double x, y;
+        assert_true(planck_color(t, &c));
+        assert_true(planck_chromaticity(t, &x, &y));
+        double r = (double)c.x, g = (double)c.y, b = (double)c.z;
+        double big_x = 0.4123908 * r + 0.3575843 * g + 0.1804808 * b;
+        double big_y = 0.2126390 * r + 0.7151687 * g + 0.0721923 * b;
+        double big_z = 0.0193308 * r + 0.1191948 * g + 0.9505322 * b;
+        assert_near(big_x / (big_x + big_y + big_z), x, 1e-5); /* seven digits, and floats */
+        assert_near(big_y / (big_x + big_y + big_z), y, 1e-5);
+    }
+}
+
 TEST(a_body_of_6504_kelvin_is_nearly_white_and_cooler_ones_are_red)
 {
     vec3 white, warm;
@@ -75,6 +93,7 @@ int main(void)
         cmocka_unit_test(chromaticities_are_the_published_ones),
         cmocka_unit_test(the_two_formulae_meet),
         cmocka_unit_test(every_color_has_luminance_1_and_no_negative_channel),
+        cmocka_unit_test(colors_have_the_chromaticity_of_their_temperature),
         cmocka_unit_test(a_body_of_6504_kelvin_is_nearly_white_and_cooler_ones_are_red),
         cmocka_unit_test(temperatures_outside_the_formulae_are_refused),
         cmocka_unit_test(black_has_no_luminance_to_scale),

@@ -98,15 +98,16 @@ TEST(a_scene_is_a_file_or_a_list_of_them)
 
 TEST(a_luminaire_has_photometry_and_places)
 {
-    const study *s           = good("lux4: 1\n"
-                                              "luminaires:\n"
-                                              "  - {name: downlight, photometry: downlight.ies, at: [[2.5, 1.5, 2.99], "
-                                              "[7.5, 1.5, 2.99]],\n"
-                                              "     aim: [0, 1, -1], rotate: 45, dimming: 0.5, lumens: 3000, color: "
-                                              "[2, 2, 2], watts: 24}\n"
-                                              "  - photometry: b.ldt\n"
-                                              "    at: [0, 0, 3]\n"
-                                              "    lamp_lumens: 4000\n");
+    static const char text[] = "lux4: 1\n"
+                               "luminaires:\n"
+                               "  - {name: downlight, photometry: downlight.ies,\n"
+                               "     at: [[2.5, 1.5, 2.99], [7.5, 1.5, 2.99]],\n"
+                               "     aim: [0, 1, -1], rotate: 45, dimming: 0.5,\n"
+                               "     lumens: 3000, color: [2, 2, 2], watts: 24}\n"
+                               "  - photometry: b.ldt\n"
+                               "    at: [0, 0, 3]\n"
+                               "    lamp_lumens: 4000\n";
+    const study *s           = good(text);
     const study_luminaire *l = s->luminaires;
     assert_int_equal(s->luminaire_count, 2);
     assert_string_equal(l->name, "downlight");
@@ -125,7 +126,7 @@ TEST(a_luminaire_has_photometry_and_places)
     assert_true(l->rotate_deg == 0.0 && l->emission.dimming == 1.0);
     assert_place(l->aim, 0, 0, -1);
     assert_rgb(l->emission.color, 1, 1, 1);
-    assert_int_equal(l->where.line, 5);
+    assert_int_equal(l->where.line, 7);
     assert_int_equal(l->where.column, 5);
 }
 
@@ -280,6 +281,7 @@ TEST(spacings_are_those_of_en_12464_1)
         assert_true(side / (cells - 1) > 0.2 * pow(5.0, log10(side))); /* no cell too many */
     }
     assert_near(study_spacing_en12464(10, 10), 1.0, 1e-15);
+    assert_near(study_spacing_en12464(10 + 1e-12, 10), 1.0, 1e-12); /* 11 - 2 * 0.5, rounded */
     assert_near(study_spacing_en12464(10, 5.1), 1.0, 1e-15);
     assert_near(study_spacing_en12464(5.1, 10), 1.0, 1e-15);
     assert_near(study_spacing_en12464(20, 10), 1.0, 1e-15); /* twice as long: the shorter side */

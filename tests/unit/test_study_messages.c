@@ -101,6 +101,7 @@ TEST(unknown_keys_are_named_with_the_nearest_known_one)
           "2:19: unknown key `tagret`: did you mean `target`?" },
         { "grids: [{name: a, require: {avarage: 5}}]",
           "2:29: unknown key `avarage`: did you mean `average`?" },
+        { "grids: [{no: room}]", "2:10: unknown key `no`: did you mean `on`?" },
         { "room: {colour: red}",
           "2:8: unknown key `colour`: a room has size, reflectance, windows" },
         { "? [a]\n: b", "2:3: expected the name of a key, found a list of 1" },

@@ -32,7 +32,7 @@ else ifneq (,$(filter x86_64-%,$(shell $(CC) -dumpmachine 2>/dev/null)))
 endif
 OPT += $(if $(filter 1,$(WIDTH)),-fno-tree-vectorize -fno-tree-slp-vectorize)
 SANS := -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
-SANS := $(if $(SAN),$(SANS))
+SANS := $(if $(SAN)$(FUZZ),$(SANS)) $(if $(FUZZ),-fsanitize=fuzzer-no-link)
 
 # No fused multiply-adds: the same numbers on every machine, whatever the width.
 FP   := -ffp-contract=off -fno-math-errno -fno-trapping-math
@@ -55,22 +55,25 @@ LDLIBS   := $(PKG_LIBS) -lm -ldl -pthread
 # ---- what there is to build -----------------------------------------------------------------
 
 TOOL  := $(if $(findstring clang,$(CC)),clang-)
-B     := build/$(TOOL)$(if $(SAN),san,$(if $(DEBUG),debug,$(if $(NATIVE),native,release)))-$(WIDTH)
+KIND  := $(if $(FUZZ),fuzz,$(if $(SAN),san,$(if $(DEBUG),debug,$(if $(NATIVE),native,release))))
+B     := build/$(TOOL)$(KIND)-$(WIDTH)
 SHIM  := core/image_oiio.cpp
 SRC   := $(filter-out sim/main.c $(SHIM),$(wildcard $(LAYERS:%=%/*.c) $(LAYERS:%=%/*.cpp)))
 AIDS  := $(wildcard tests/*.c)
 TESTS := $(patsubst %.c,$B/%,$(wildcard tests/*/test_*.c))
 LONG  := $(patsubst %.c,$B/%,$(wildcard tests/*/long_*.c))
 BENCH := $(patsubst %.c,$B/%,$(wildcard tests/bench/bench_*.c))
+FUZZERS := $(patsubst %.c,$B/%,$(wildcard tests/fuzz/fuzz_*.c))
 PROG  := $(patsubst sim/main.c,$B/lux4,$(wildcard sim/main.c))
 PLUG  := $(patsubst $(SHIM),$B/liblux4_oiio.so,$(wildcard $(SHIM)))
 TEXT  := $(wildcard $(foreach d,$(LAYERS) tests tests/* data/*,$d/*.[ch] $d/*.cpp))
 
+TO        := $(DESTDIR)$(PREFIX)
 MAKEFLAGS += --no-builtin-rules --no-print-directory
 Q         := $(if $V,,@)
 .DELETE_ON_ERROR:
 .SECONDARY:
-.PHONY: all check check-long check-width tests demo bench deps bench-deps install layers format \
+.PHONY: all check check-long tests demo bench bench-deps deps fuzz fuzzers install layers format \
         format-check clean help FORCE
 
 ## all: the library and the program (what plain `make` does)
@@ -85,6 +88,11 @@ $(TESTS) $(LONG) $(BENCH): $B/%: $B/%.c.o $(AIDS:%=$B/%.o)
 $(TESTS) $(LONG) $(BENCH): private LDFLAGS += -Wl,--wrap=aligned_alloc
 $(TESTS) $(LONG) $(BENCH): private LDLIBS += $(TEST_LIBS)
 $(PROG) $(TESTS) $(LONG) $(BENCH): $B/liblux4.a $B/links
+	@echo "LD   $@"
+	$Q$(CXX) $(LDFLAGS) $(filter %.o,$^) $(filter %.a,$^) $(LDLIBS) -o $@
+
+$(FUZZERS): private LDFLAGS += -fsanitize=fuzzer
+$(FUZZERS): $B/%: $B/%.c.o $B/liblux4.a $B/links
 	@echo "LD   $@"
 	$Q$(CXX) $(LDFLAGS) $(filter %.o,$^) $(filter %.a,$^) $(LDLIBS) -o $@
 
@@ -106,7 +114,7 @@ $B/links: TELL = $(CXX) $(LDFLAGS) $(LDLIBS) $(SRC) $(AIDS)
 $B/flags $B/links: FORCE
 	@mkdir -p $(@D); echo '$(subst ','\'',$(TELL))' | cmp -s - $@ || echo '$(subst ','\'',$(TELL))' > $@
 
--include $(patsubst %,$B/%.d,$(SRC:=) $(AIDS) sim/main.c) $(addsuffix .c.d,$(TESTS) $(LONG) $(BENCH))
+-include $(patsubst %,$B/%.d,$(SRC:=) $(AIDS) sim/main.c) $(addsuffix .c.d,$(TESTS) $(LONG) $(BENCH) $(FUZZERS))
 -include $(PLUG:.so=.d)
 
 # What is missing is installed for check and demo, which set a machine up; else it is named.
@@ -134,6 +142,11 @@ tests: all $(TESTS)
 check-long: all $(LONG)
 	$Qfor t in $(LONG); do $$t || exit 1; done
 
+## demo: the office: its illuminance table, and a picture in data/office/out
+demo: all
+	$(PROG) grid data/office/office.yaml
+	$(PROG) render data/office/office.yaml
+
 ## bench: rays per second, packets against one ray at a time, appended to build/bench.log
 bench: $(BENCH)
 	@{ echo "# $$(git describe --always --dirty 2>/dev/null) $(CC) $(OPT)"; \
@@ -144,6 +157,27 @@ deps:
 	@command -v apt-get > /dev/null || { echo "no apt-get here; lux4 needs (Debian's names): $(DEBS)"; exit 1; }
 	@sudo=$$([ $$(id -u) = 0 ] || echo sudo); set -x; $$sudo apt-get update && $$sudo env \
 	  DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $(DEBS)
+
+## fuzz: a minute of random bytes at each reader, built by clang (SECONDS=60; findings: build/fuzz)
+fuzz:
+	$Q$(MAKE) CC=clang CXX=clang++ FUZZ=1 fuzzers
+fuzzers: $(FUZZERS)
+	@for f in $(FUZZERS); do mkdir -p build/fuzz/$$(basename $$f); echo "FUZZ $$f"; \
+	  $$f -max_total_time=$(or $(SECONDS),60) -timeout=5 -max_len=4000 -verbosity=0 \
+	  -print_final_stats=1 -artifact_prefix=build/fuzz/ build/fuzz/$$(basename $$f) || exit 1; done
+
+## install: program, library, header, manual and data below PREFIX (default /usr/local; DESTDIR too)
+install: all
+	install -d $(TO)/bin $(TO)/lib/lux4 $(TO)/lib/pkgconfig $(TO)/include/lux4 $(TO)/share/man/man1 $(TO)/share/lux4/office
+	install -m 755 $(PROG) $(TO)/bin
+	install -m 755 $(PLUG) $(TO)/lib/lux4
+	install -m 644 $B/liblux4.a $(TO)/lib
+	install -m 644 sim/lux4.h $(TO)/include/lux4
+	install -m 644 sim/lux4.1 $(TO)/share/man/man1
+	install -m 644 $(wildcard data/office/*.yaml data/office/*.glb data/office/*.ies data/office/*.ldt) $(TO)/share/lux4/office
+	@printf '%s\n' 'prefix=$(PREFIX)' 'Name: lux4' 'Description: lighting-design simulation' 'Version: $(VERSION)' \
+	  'Cflags: -I$${prefix}/include/lux4' 'Requires.private: $(PKGS)' \
+	  'Libs: -L$${prefix}/lib -llux4 $(PKG_LIBS) -lstdc++ -lm -ldl -pthread' > $(TO)/lib/pkgconfig/lux4.pc
 
 ## layers: core < materials, lights < sky < sim (sky/ may include lights/light.h: the sun is a light)
 layers:

@@ -54,6 +54,8 @@ static void print_materials(const scene *s)
     printf("materials                          reflectance R, G, B\n");
     for (int i = 0; i < s->material_count; i++) {
         const scene_material *m = &s->material_info[i];
+        if (!m->used)
+            continue;
         printf("  %-32s %6.3f %6.3f %6.3f", m->name[0] ? m->name : "(unnamed)",
                (double)m->reflectance.x, (double)m->reflectance.y, (double)m->reflectance.z);
         if (m->emission.x > 0 || m->emission.y > 0 || m->emission.z > 0)

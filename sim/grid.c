@@ -34,16 +34,9 @@ typedef struct grid_run_state {
 /* ---- sensors ------------------------------------------------------------------------------------
  */
 
-static int cells(double length, double spacing)
-{
-    double n = round(length / spacing);
-    return n > 1.0 ? (int)n : 1;
-}
-
 static bool plane_sensors(arena *a, const study_grid *g, grid_result *out, lux_error *err)
 {
-    out->columns         = cells(d3_length(g->u), g->spacing);
-    out->rows            = cells(d3_length(g->v), g->spacing);
+    study_grid_counts(g, &out->columns, &out->rows);
     out->sensor_count    = out->columns * out->rows;
     grid_sensor *sensors = arena_array(a, grid_sensor, (size_t)out->sensor_count, err);
     if (!sensors)

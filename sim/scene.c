@@ -72,7 +72,7 @@ static bool any_glows(const scene_build *b)
 {
     const scene_material *m = b->material_info.items;
     for (size_t i = 0; i < b->material_info.count; i++)
-        if (m[i].emission.x > 0 || m[i].emission.y > 0 || m[i].emission.z > 0)
+        if (m[i].used && !(m[i].emission.x == 0 && m[i].emission.y == 0 && m[i].emission.z == 0))
             return true;
     return false;
 }

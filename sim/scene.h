@@ -18,6 +18,7 @@ typedef struct scene_material {
     vec3 reflectance; /* of diffuse light */
     vec3 emission;    /* cd/m^2 */
     bool overridden;  /* by the study's materials */
+    bool used;        /* some surface is made of it */
 } scene_material;
 
 typedef struct scene_light {

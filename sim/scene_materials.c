@@ -7,7 +7,7 @@
 #include "core/color.h"
 #include "sim/scene_build.h"
 
-static bool add(scene_build *b, const char *name, vec3 reflectance, vec3 emission)
+static bool add(scene_build *b, const char *name, vec3 reflectance, vec3 emission, bool used)
 {
     bool overridden = false;
     for (int i = 0; i < b->study->material_count; i++) { /* the last match wins */
@@ -24,7 +24,7 @@ static bool add(scene_build *b, const char *name, vec3 reflectance, vec3 emissio
     if (!made)
         return false;
     *m    = made;
-    *info = (scene_material){ name, reflectance, emission, overridden };
+    *info = (scene_material){ name, reflectance, emission, overridden, used };
     return true;
 }
 
@@ -58,15 +58,40 @@ static bool all_patterns_match(scene_build *b)
     return true;
 }
 
+/* Which materials of a file some placed triangle is made of: the others are not worth a word. */
+static bool *used_materials(scene_build *b, const gltf *g)
+{
+    bool *used = arena_array(b->a, bool, g->material_count, b->err);
+    for (uint32_t k = 0; used && k < g->placement_count; k++) {
+        const mesh *m = &g->meshes[g->placements[k].mesh].triangles;
+        for (uint32_t t = 0; t < m->triangle_count; t++)
+            used[m->material ? m->material[t] : 0] = true;
+    }
+    return used;
+}
+
+static bool add_file(scene_build *b, const char *file, const gltf *g)
+{
+    const bool *used = used_materials(b, g);
+    for (uint32_t k = 0; used && k < g->material_count; k++) {
+        const gltf_material *m = &g->materials[k];
+        if (!add(b, m->name, m->base_color, m->emission, used[k]))
+            return false;
+        if (used[k])
+            tell_what_is_left_out(b, file, m);
+    }
+    return used != NULL;
+}
+
 bool build_materials(scene_build *b)
 {
     const study *s  = b->study;
     uint32_t *first = arena_array(b->a, uint32_t, (size_t)s->scene_count + 1, b->err);
     if (!first)
         return false;
-    if (s->room.given && !(add(b, "room: ceiling", s->room.ceiling, (vec3){ 0 }) &&
-                           add(b, "room: walls", s->room.walls, (vec3){ 0 }) &&
-                           add(b, "room: floor", s->room.floor, (vec3){ 0 })))
+    if (s->room.given && !(add(b, "room: ceiling", s->room.ceiling, (vec3){ 0 }, true) &&
+                           add(b, "room: walls", s->room.walls, (vec3){ 0 }, true) &&
+                           add(b, "room: floor", s->room.floor, (vec3){ 0 }, true)))
         return false;
     for (int i = 0; i < s->scene_count; i++) {
         bool again = false;
@@ -78,12 +103,8 @@ bool build_materials(scene_build *b)
         if (again)
             continue;
         first[i] = (uint32_t)b->materials.count;
-        for (uint32_t k = 0; k < b->files[i]->material_count; k++) {
-            const gltf_material *m = &b->files[i]->materials[k];
-            if (!add(b, m->name, m->base_color, m->emission))
-                return false;
-            tell_what_is_left_out(b, s->scenes[i].file, m);
-        }
+        if (!add_file(b, s->scenes[i].file, b->files[i]))
+            return false;
     }
     b->first_material = first;
     return all_patterns_match(b);

@@ -2,6 +2,7 @@
  *
  * The file is read whole first, so that the library never waits for a pipe or meets a file that
  * shrinks; it sees memory. Sizes that the library would believe are checked before any is used.
+ * All compressions that the library decodes are read: in 3.1.5 its C API lacks DWAA and DWAB.
  */
 #include "core/file.h"
 #include "core/image.h"
@@ -66,8 +67,10 @@ static int64_t total_bytes(exr_const_context_t exr, void *user)
 
 static bool refused(const reader *r, exr_result_t code, lux_error *err)
 {
-    return failed(err, code == EXR_ERR_OUT_OF_MEMORY ? ERR_MEMORY : ERR_FORMAT,
-                  "%s: cannot be read as EXR: %s", r->path,
+    error_code as = code == EXR_ERR_OUT_OF_MEMORY             ? ERR_MEMORY
+                    : code == EXR_ERR_FEATURE_NOT_IMPLEMENTED ? ERR_UNSUPPORTED
+                                                              : ERR_FORMAT;
+    return failed(err, as, "%s: cannot be read as EXR: %s", r->path,
                   r->message[0] ? r->message : exr_get_default_error_message(code));
 }
 

@@ -401,7 +401,7 @@ TEST(files_of_others_are_read_or_refused)
     }
     if (read_count + refused_count == 0)
         skip();
-    assert_true(read_count > refused_count);
+    assert_true(read_count > 0 && refused_count > 0);
 }
 
 TEST(what_is_no_exr_is_refused)

@@ -1,0 +1,191 @@
+// core/image_oiio.cpp -- see image_oiio.h. The one file that includes OpenImageIO; becomes
+// liblux4_oiio.so, which uses nothing of liblux4.
+#include "core/image_oiio.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace
+{
+
+constexpr int MOST_A_SIDE              = 16384;
+constexpr int MOST_CHANNELS            = 64;
+constexpr int STRIP                    = 64; // rows that are decoded at a time
+constexpr OIIO::imagesize_t MOST_BYTES = OIIO::imagesize_t(1) << 30;
+
+bool refuse(oiio_message *why, const std::string &text)
+{
+    std::snprintf(why->text, sizeof why->text, "%s", text.c_str());
+    for (char *c = why->text; *c; c++) // OpenImageIO's may have several lines
+        if (*c == '\n')
+            *c = ' ';
+    return false;
+}
+
+// Runs f, and makes whatever it throws a message.
+template <typename F> bool guarded(oiio_message *why, F f)
+{
+    try {
+        return f();
+    } catch (const std::bad_alloc &) {
+        return refuse(why, "out of memory");
+    } catch (const std::exception &e) {
+        return refuse(why, e.what());
+    } catch (...) {
+        return refuse(why, "OpenImageIO failed without a reason");
+    }
+}
+
+bool encode(const oiio_picture &p, oiio_sink to, oiio_message *why)
+{
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput stream(bytes);
+    auto out = OIIO::ImageOutput::create(p.name);
+    if (!out)
+        return refuse(why, OIIO::geterror());
+    if (!out->supports("ioproxy") || !out->set_ioproxy(&stream))
+        return refuse(why, std::string("cannot write ") + out->format_name() +
+                               " pictures: name it .png");
+    OIIO::ImageSpec spec(p.width, p.height, 3, OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    if (!out->open(p.name, spec) || !out->write_image(OIIO::TypeDesc::UINT8, p.rgb) ||
+        !out->close())
+        return refuse(why, out->geterror());
+    if (!to.put(to.context, bytes.data(), bytes.size()))
+        return refuse(why, "cannot be stored");
+    return true;
+}
+
+// A name with the right ending for a picture in memory; empty if it is of no known kind.
+std::string name_by_content(const oiio_source &s)
+{
+    struct kind {
+        size_t at;
+        std::string magic, name;
+    };
+    const kind kinds[] = {
+        { 0, "\x89PNG\r\n\x1a\n", "memory.png" },
+        { 0, "\xff\xd8\xff", "memory.jpg" },
+        { 8, "WEBP", "memory.webp" },
+        { 0, "#?", "memory.hdr" },
+        { 0, "\x76\x2f\x31\x01", "memory.exr" },
+        { 0, "BM", "memory.bmp" },
+        { 0, "DDS ", "memory.dds" },
+    };
+    for (const kind &k : kinds)
+        if (s.size >= k.at + k.magic.size() &&
+            !std::memcmp(static_cast<const char *>(s.bytes) + k.at, k.magic.data(), k.magic.size()))
+            return k.name;
+    return {};
+}
+
+// IEC 61966-2-1 at 16 bits, which hold 8-bit values exactly.
+std::vector<float> srgb_table()
+{
+    std::vector<float> table(65536);
+    for (size_t i = 0; i < table.size(); i++) {
+        double v = double(i) / 65535.0;
+        table[i] = float(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
+    }
+    return table;
+}
+
+bool size_allowed(const OIIO::ImageSpec &s, oiio_message *why)
+{
+    if (s.deep || s.depth > 1)
+        return refuse(why, "a flat picture was expected");
+    if (s.width < 1 || s.height < 1 || s.width > MOST_A_SIDE || s.height > MOST_A_SIDE)
+        return refuse(why, std::to_string(s.width) + " x " + std::to_string(s.height) +
+                               " pixels, at most " + std::to_string(MOST_A_SIDE) +
+                               " a side are read");
+    if (s.nchannels < 1 || s.nchannels > MOST_CHANNELS || s.image_bytes(true) > MOST_BYTES)
+        return refuse(why, "more than 1 GB, or " + std::to_string(MOST_CHANNELS) +
+                               " channels, when decoded");
+    return true;
+}
+
+// Rows begin .. end - 1 of the first `channels` channels.
+bool read_rows(OIIO::ImageInput &in, const OIIO::ImageSpec &s, int begin, int end, int channels,
+               float *values)
+{
+    if (!s.tile_width)
+        return in.read_scanlines(0, 0, s.y + begin, s.y + end, s.z, 0, channels,
+                                 OIIO::TypeDesc::FLOAT, values);
+    return in.read_tiles(0, 0, s.x, s.x + s.width, s.y + begin, s.y + end, s.z, s.z + 1, 0,
+                         channels, OIIO::TypeDesc::FLOAT, values);
+}
+
+bool sum_rows(OIIO::ImageInput &in, const OIIO::ImageSpec &s, bool srgb, double sum[4],
+              oiio_message *why)
+{
+    const int channels = std::min(s.nchannels, 4);
+    const int alpha    = channels == 2 || channels == 4 ? channels - 1 : -1;
+    const int strip    = s.tile_width ? std::max(s.tile_height, 1) : STRIP;
+    const auto table   = srgb ? srgb_table() : std::vector<float>();
+    std::vector<float> values(size_t(s.width) * size_t(std::min(strip, s.height)) *
+                              size_t(channels));
+    for (int y = 0; y < s.height; y += strip) {
+        const int end = std::min(y + strip, s.height);
+        if (!read_rows(in, s, y, end, channels, values.data()))
+            return refuse(why, in.geterror());
+        const size_t count = size_t(s.width) * size_t(end - y) * size_t(channels);
+        for (size_t i = 0; i < count; i++) {
+            const int c = int(i % size_t(channels));
+            float v     = values[i];
+            if (!std::isfinite(v))
+                return refuse(why, "a value that is no finite number");
+            if (srgb && c != alpha)
+                v = table[size_t(std::lround(std::clamp(v, 0.0f, 1.0f) * 65535.0f))];
+            sum[c] += double(v);
+        }
+    }
+    return true;
+}
+
+bool mean_of(const oiio_source &from, float mean[4], oiio_message *why)
+{
+    OIIO::Filesystem::IOMemReader memory(const_cast<void *>(from.bytes), from.size);
+    const std::string name = from.bytes ? name_by_content(from) : from.name;
+    if (name.empty())
+        return refuse(why, "a picture of no known kind (PNG and JPEG are known)");
+    OIIO::ImageSpec wish;
+    wish.attribute("oiio:UnassociatedAlpha", 1); // colours as they were before alpha
+    auto in = OIIO::ImageInput::open(name, &wish, from.bytes ? &memory : nullptr);
+    if (!in)
+        return refuse(why, OIIO::geterror());
+    const OIIO::ImageSpec s = in->spec();
+    if (!size_allowed(s, why))
+        return false;
+
+    double sum[4]      = { 0.0, 0.0, 0.0, 0.0 };
+    const bool integer = s.format == OIIO::TypeDesc::UINT8 || s.format == OIIO::TypeDesc::UINT16;
+    if (!sum_rows(*in, s, from.srgb && integer, sum, why))
+        return false;
+    const double pixels = double(s.width) * double(s.height);
+    const bool grey     = s.nchannels < 3;
+    for (int c = 0; c < 3; c++)
+        mean[c] = float(sum[grey ? 0 : c] / pixels);
+    mean[3] = s.nchannels == 2 || s.nchannels >= 4 ? float(sum[grey ? 1 : 3] / pixels) : 1.0f;
+    return true;
+}
+
+} // namespace
+
+bool lux4_oiio_encode(const oiio_picture *picture, oiio_sink to, oiio_message *why)
+{
+    return guarded(why, [&] { return encode(*picture, to, why); });
+}
+
+bool lux4_oiio_mean(const oiio_source *from, float mean[4], oiio_message *why)
+{
+    return guarded(why, [&] { return mean_of(*from, mean, why); });
+}

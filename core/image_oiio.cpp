@@ -159,7 +159,10 @@ bool mean_of(const oiio_source &from, float mean[4], oiio_message *why)
         return refuse(why, "a picture of no known kind (PNG and JPEG are known)");
     OIIO::ImageSpec wish;
     wish.attribute("oiio:UnassociatedAlpha", 1); // colours as they were before alpha
-    auto in = OIIO::ImageInput::open(name, &wish, from.bytes ? &memory : nullptr);
+    OIIO::Filesystem::IOProxy *stream = &memory;
+    if (from.bytes) // PNG's reader looks here alone
+        wish.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &stream);
+    auto in = OIIO::ImageInput::open(name, &wish, from.bytes ? stream : nullptr);
     if (!in)
         return refuse(why, OIIO::geterror());
     const OIIO::ImageSpec s = in->spec();

@@ -269,7 +269,7 @@ static bool read_web(photometry *p, scanner *c, const ldt_header *h, lux_error *
     stored_web w;
     bool fits;
     double *listed = arena_array(c->a, double, (size_t)h->planes, err);
-    if (!listed || !stored_web_new(&w, h->planes, h->gammas, c->a, err))
+    if (!listed || !stored_web_new(&w, h->planes, h->gammas, c, err))
         return false;
     w.plane_line = c->line;
     if (!read_angles(c, "C plane", listed, h->planes, 360.0, h->symmetry == 3, err))
@@ -299,7 +299,7 @@ static bool read_web(photometry *p, scanner *c, const ldt_header *h, lux_error *
                    c->path, h->symmetry);
         p->symmetry = SYMMETRY_ROTATIONAL;
     }
-    return web_unfold(p, &w, c->a, err);
+    return web_unfold(p, &w, c, err);
 }
 
 bool photometry_read_eulumdat(photometry *p, scanner *c, lux_error *err)

@@ -259,12 +259,12 @@ static bool make_type_c(photometry *p, scanner *c, const stored_web *w, lux_erro
                    "180 or 0 to 180: dark outside of them",
                    c->path, w->gamma_line, first, last);
     check_seam(c, w);
-    return find_symmetry(p, c, w, err) && web_unfold(p, w, c->a, err);
+    return find_symmetry(p, c, w, err) && web_unfold(p, w, c, err);
 }
 
 static bool make_type_ab(photometry *p, scanner *c, const stored_web *w, lux_error *err)
 {
-    if (!web_from_ab(p, w, c->a, err))
+    if (!web_from_ab(p, w, c, err))
         return false;
     notice_add(c->n, "%s:%d: photometric type %c: resampled as type C, %d planes of %d angles",
                c->path, w->gamma_line, p->type, p->plane_count, p->gamma_count);
@@ -280,7 +280,7 @@ bool photometry_read_ies(photometry *p, scanner *c, lux_error *err)
     if (!ies_read_labels(p, c, &tilt, err) || !read_tilt(p, c, &tilt, err) ||
         !read_header(c, &h, err) || !settle_header(p, c, &h, &factor, err))
         return false;
-    if (!stored_web_new(&w, h.horizontals, h.verticals, c->a, err))
+    if (!stored_web_new(&w, h.horizontals, h.verticals, c, err))
         return false;
 
     /* In 1986 type 1 was A as well as C: C has no vertical angles below 0 */

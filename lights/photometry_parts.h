@@ -67,14 +67,14 @@ typedef struct stored_web {
     int plane_line, gamma_line; /* of the file, where the angles begin */
 } stored_web;
 
-/* Room for a web; the counts are checked. */
-bool stored_web_new(stored_web *w, int planes, int gammas, arena *a, lux_error *err);
+/* Room for a web in c->a; the product of the counts is checked. */
+bool stored_web_new(stored_web *w, int planes, int gammas, scanner *c, lux_error *err);
 
 /* Makes *p's web of w, mirrored as p->symmetry says. */
-bool web_unfold(photometry *p, const stored_web *w, arena *a, lux_error *err);
+bool web_unfold(photometry *p, const stored_web *w, scanner *c, lux_error *err);
 
 /* Makes *p's web, type C, of one in type A or B (p->type): w->plane holds H, w->gamma V. */
-bool web_from_ab(photometry *p, const stored_web *w, arena *a, lux_error *err);
+bool web_from_ab(photometry *p, const stored_web *w, scanner *c, lux_error *err);
 
 /* A candela value as the web takes it: times factor; negative ones are 0 and counted. False where
  * it is too large for a float. */

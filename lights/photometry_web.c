@@ -32,15 +32,16 @@ bool web_candela(double value, double factor, float *out, int *negative)
     return true;
 }
 
-bool stored_web_new(stored_web *w, int planes, int gammas, arena *a, lux_error *err)
+bool stored_web_new(stored_web *w, int planes, int gammas, scanner *c, lux_error *err)
 {
     *w = (stored_web){ .plane_count = planes, .gamma_count = gammas };
     if ((int64_t)planes * gammas > MOST_VALUES)
-        return failed(err, ERR_FORMAT, "%d planes of %d angles, at most %d values were expected",
-                      planes, gammas, MOST_VALUES);
-    w->plane   = arena_array(a, double, (size_t)planes, err);
-    w->gamma   = w->plane ? arena_array(a, double, (size_t)gammas, err) : NULL;
-    w->candela = w->gamma ? arena_array(a, float, (size_t)planes *(size_t)gammas, err) : NULL;
+        return failed(err, ERR_FORMAT,
+                      "%s:%d: found %d planes of %d angles, expected at most %d values", c->path,
+                      c->line, planes, gammas, MOST_VALUES);
+    w->plane   = arena_array(c->a, double, (size_t)planes, err);
+    w->gamma   = w->plane ? arena_array(c->a, double, (size_t)gammas, err) : NULL;
+    w->candela = w->gamma ? arena_array(c->a, float, (size_t)planes *(size_t)gammas, err) : NULL;
     return w->candela != NULL;
 }
 
@@ -89,20 +90,21 @@ static int unfold_planes(const stored_web *w, photometry_symmetry s, image_plane
     return kept;
 }
 
-bool web_unfold(photometry *p, const stored_web *w, arena *a, lux_error *err)
+bool web_unfold(photometry *p, const stored_web *w, scanner *c, lux_error *err)
 {
-    image_plane *planes = arena_array(a, image_plane, 4 * (size_t)w->plane_count, err);
+    image_plane *planes = arena_array(c->a, image_plane, 4 * (size_t)w->plane_count, err);
     if (!planes)
         return false;
     int count = unfold_planes(w, p->symmetry, planes);
     int rings = w->gamma_count;
     if ((int64_t)count * rings > MOST_VALUES)
-        return failed(err, ERR_FORMAT, "%d planes of %d angles, at most %d values were expected",
-                      count, rings, MOST_VALUES);
+        return failed(err, ERR_FORMAT,
+                      "%s:%d: found %d planes of %d angles, expected at most %d values", c->path,
+                      c->line, count, rings, MOST_VALUES);
 
-    float *plane   = arena_array(a, float, (size_t)count, err);
-    float *gamma   = plane ? arena_array(a, float, (size_t)rings, err) : NULL;
-    float *candela = gamma ? arena_array(a, float, (size_t)count *(size_t)rings, err) : NULL;
+    float *plane   = arena_array(c->a, float, (size_t)count, err);
+    float *gamma   = plane ? arena_array(c->a, float, (size_t)rings, err) : NULL;
+    float *candela = gamma ? arena_array(c->a, float, (size_t)count *(size_t)rings, err) : NULL;
     if (!candela)
         return false;
     for (int i = 0; i < count; i++) {
@@ -216,27 +218,27 @@ static int rings_ab(const stored_web *w, double *out)
     return kept;
 }
 
-bool web_from_ab(photometry *p, const stored_web *w, arena *a, lux_error *err)
+bool web_from_ab(photometry *p, const stored_web *w, scanner *c, lux_error *err)
 {
     double step = smallest_step(w->plane, w->plane_count, COARSEST_DEG);
     step        = smallest_step(w->gamma, w->gamma_count, step);
     int planes  = 4 * (int)ceil(90.0 / fmax(step, FINEST_DEG) - 1e-9);
     double *rings =
-        arena_array(a, double, 77 + (size_t)w->plane_count + (size_t)w->gamma_count, err);
-    stored_web c;
+        arena_array(c->a, double, 77 + (size_t)w->plane_count + (size_t)w->gamma_count, err);
+    stored_web out;
     if (!rings)
         return false;
     int ring_count = rings_ab(w, rings);
-    if (!stored_web_new(&c, planes, ring_count, a, err))
+    if (!stored_web_new(&out, planes, ring_count, c, err))
         return false;
 
-    memcpy(c.gamma, rings, (size_t)ring_count * sizeof *rings);
+    memcpy(out.gamma, rings, (size_t)ring_count * sizeof *rings);
     for (int i = 0; i < planes; i++) {
-        c.plane[i] = 360.0 * i / planes;
+        out.plane[i] = 360.0 * i / planes;
         for (int j = 0; j < ring_count; j++)
-            c.candela[(size_t)i * (size_t)ring_count + (size_t)j] =
-                (float)candela_ab(p, w, c.plane[i], rings[j]);
+            out.candela[(size_t)i * (size_t)ring_count + (size_t)j] =
+                (float)candela_ab(p, w, out.plane[i], rings[j]);
     }
     p->symmetry = SYMMETRY_NONE;
-    return web_unfold(p, &c, a, err);
+    return web_unfold(p, &out, c, err);
 }

@@ -11,6 +11,8 @@
 #include <math.h>
 #include <string.h>
 
+enum { MOST_RINGS = 6, LONGEST_TITLE = 56 /* characters: what fits */ };
+
 static const double WIDTH = 520.0, HEIGHT = 600.0; /* px, of the picture */
 static const double CENTRE_X = 260.0, CENTRE_Y = 300.0, RADIUS = 210.0;
 static const double DEG = M_PI / 180.0;
@@ -24,22 +26,23 @@ typedef struct polar_plot {
     double step;   /* between rings */
 } polar_plot;
 
-/* 1, 2, 2.5 or 5 times a power of ten, so that at most five rings hold `most`. */
+/* 1, 2, 2.5 or 5 times a power of ten, so that at most MOST_RINGS rings hold `most`. */
 static double ring_step(double most)
 {
     static const double steps[] = { 1.0, 2.0, 2.5, 5.0, 10.0 };
-    double power                = pow(10.0, floor(log10(most / 5.0)));
+    double power                = pow(10.0, floor(log10(most / MOST_RINGS)));
     for (size_t i = 0; i < sizeof steps / sizeof *steps; i++)
-        if (5.0 * steps[i] * power >= most * (1.0 - 1e-9))
+        if (MOST_RINGS * steps[i] * power >= most * (1.0 - 1e-9))
             return steps[i] * power;
     return 10.0 * power;
 }
 
-/* Text within XML; control characters and what is no UTF-8 become '?'. */
+/* Text within XML, cut where the picture ends; control characters and what is no UTF-8 become
+ * '?'. */
 static void xml_text(FILE *out, const char *s)
 {
     size_t left = strlen(s);
-    while (left > 0) {
+    for (int i = 0; left > 0 && i < LONGEST_TITLE; i++) {
         size_t n = utf8_length(s, left);
         if (n == 0 || *s == 0x7f || (n == 1 && *s < ' '))
             fputc('?', out);

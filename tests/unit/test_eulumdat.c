@@ -1,0 +1,356 @@
+/* tests/unit/test_eulumdat.c -- EULUMDAT files, and webs written and read again. */
+#include "tests/photometry_reading.h"
+
+#include <stdio.h>
+#include <unistd.h>
+
+/* A file from its parts; every place that a test changes is an argument. */
+typedef struct ldt {
+    const char *symmetry, *planes, *opening, *factor, *sets, *angles, *values;
+} ldt;
+
+#define ONE_SET "1\n2\nLED\n2000\n3000\n80\n40\n"
+
+static const ldt plain = { "1", "1", "0\n0\n0\n0\n0\n0", "1", ONE_SET, "0", "100\n50\n0" };
+
+static const photometry *read_ldt(ldt t)
+{
+    char text[2048];
+    snprintf(text, sizeof text,
+             "Company\n2\n%s\n%s\n0\n3\n45\nReport\nName\nNumber\nfile.ldt\ndate\n500\n400\n30\n%"
+             "s\n100\n"
+             "100\n%s\n0\n%s0\n0\n0\n0\n0\n0\n0\n0\n0\n0\n%s\n0\n45\n90\n%s\n",
+             t.symmetry, t.planes, t.opening, t.factor, t.sets, t.angles, t.values);
+    return read_text(text);
+}
+
+TEST(intensities_are_per_1000_lumens_times_the_conversion_factor)
+{
+    ldt t    = plain;
+    t.factor = "1,5";
+    assert_non_null(read_ldt(t));
+    assert_int_equal(r.p->format, PHOTOMETRY_EULUMDAT);
+    assert_near(at(0, 0), 100.0 * 2.0 * 1.5, 1e-6);
+    assert_near(at(123, 22.5), 75.0 * 2.0 * 1.5, 1e-6);
+    assert_near(r.p->lamp_lumens, 2000.0, 0);
+    assert_near(r.p->watts, 40.0, 0);
+    assert_near(r.p->stated_lor, 1.0, 0);
+    assert_int_equal(r.p->symmetry, SYMMETRY_ROTATIONAL);
+    assert_true(r.p->length_along_deg == 90.0f);
+    assert_string_equal(r.p->manufacturer, "Company");
+    assert_string_equal(r.p->catalog, "Number");
+    assert_string_equal(r.p->lamp, "LED");
+    t.factor = "0";
+    assert_non_null(read_ldt(t));
+    assert_true(at(0, 0) == 200.0 && noticed("the conversion factor is 0: taken as 1"));
+}
+
+TEST(a_negative_number_of_lamps_is_absolute_photometry)
+{
+    ldt t  = plain;
+    t.sets = "1\n-1\nLED\n700\n\n\n5\n";
+    assert_non_null(read_ldt(t));
+    assert_true(r.p->absolute && r.p->lamp_lumens == 0.0 && r.p->stated_lumens == 700.0);
+    assert_near(at(0, 0), 70.0, 1e-6);
+    photometry_figure(r.p, "t", &r.n);
+    assert_true(noticed("flux is stated as 700.0 lm"));
+}
+
+TEST(of_several_sets_of_lamps_the_first_counts)
+{
+    ldt t  = plain;
+    t.sets = "2\n1\nA\n1000\n\n\n10\n1\nB\n5000\n\n\n50\n";
+    assert_non_null(read_ldt(t));
+    assert_near(at(0, 0), 100.0, 1e-6);
+    assert_near(r.p->watts, 10.0, 0);
+    assert_true(noticed("t:27: 2 sets of lamps: the first is taken (A, 1000 lm)"));
+}
+
+/* Eight planes; at gamma 0 10 cd/klm, at 90 the plane's own number. */
+#define EIGHT "0\n45\n90\n135\n180\n225\n270\n315"
+
+TEST(symmetries_are_unfolded_as_stockmar_numbers_planes)
+{
+    ldt t    = plain;
+    t.planes = "8", t.angles = EIGHT;
+
+    t.symmetry = "0";
+    t.values   = "1\n1\n1\n1\n1\n2\n1\n1\n3\n1\n1\n4\n1\n1\n5\n1\n1\n6\n1\n1\n7\n1\n1\n8";
+    assert_non_null(read_ldt(t));
+    for (int i = 0; i < 8; i++)
+        assert_true(at(45 * i, 90) == 2.0 * (i + 1));
+
+    t.symmetry = "2"; /* C0 to C180 */
+    t.values   = "1\n1\n1\n1\n1\n2\n1\n1\n3\n1\n1\n4\n1\n1\n5";
+    assert_non_null(read_ldt(t));
+    assert_true(at(45, 90) == 4 && at(180, 90) == 10 && at(315, 90) == 4 && at(225, 90) == 8);
+
+    t.symmetry = "3"; /* C270 by way of C0 to C90 */
+    assert_non_null(read_ldt(t));
+    assert_true(at(270, 90) == 2 && at(315, 90) == 4 && at(0, 90) == 6 && at(90, 90) == 10);
+    assert_true(at(180, 90) == 6 && at(225, 90) == 4 && at(135, 90) == 8);
+
+    t.angles = "90\n135\n180\n225\n270\n315\n0\n45"; /* a writer that begins at C90, and says so */
+    assert_non_null(read_ldt(t));
+    assert_true(at(90, 90) == 2 && at(135, 90) == 4 && at(270, 90) == 10 && at(45, 90) == 4);
+
+    t.symmetry = "4", t.angles = EIGHT; /* C0 to C90 */
+    t.values = "1\n1\n1\n1\n1\n2\n1\n1\n3";
+    assert_non_null(read_ldt(t));
+    assert_true(at(135, 90) == 4 && at(180, 90) == 2 && at(270, 90) == 6 && at(315, 90) == 4);
+
+    t.symmetry = "1";
+    t.values   = "1\n1\n9";
+    assert_non_null(read_ldt(t));
+    assert_true(r.p->plane_count == 1 && at(200, 90) == 18);
+    assert_int_equal(r.n.count, 0);
+}
+
+TEST(openings_are_round_where_the_width_is_0)
+{
+    const struct {
+        const char *size;
+        opening_shape shape;
+        double l, w, h;
+    } cases[] = {
+        { "1200\n300\n0\n0\n0\n0", OPENING_RECTANGLE, 1.2, 0.3, 0 },
+        { "1200\n300\n10\n20\n10\n20", OPENING_BOX, 1.2, 0.3, 0.02 },
+        { "200\n0\n0\n0\n0\n0", OPENING_DISC, 0.2, 0.2, 0 },
+        { "200\n0\n50\n50\n50\n50", OPENING_VERTICAL_CYLINDER, 0.2, 0.2, 0.05 },
+        { "0\n0\n\n0\n0\n0", OPENING_POINT, 0, 0, 0 },
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        ldt t     = plain;
+        t.opening = cases[i].size;
+        assert_non_null(read_ldt(t));
+        assert_int_equal(r.p->opening, cases[i].shape);
+        assert_near(r.p->length, cases[i].l, 1e-6);
+        assert_near(r.p->width, cases[i].w, 1e-6);
+        assert_near(r.p->height, cases[i].h, 1e-6);
+    }
+}
+
+TEST(what_eulumdat_cannot_mean_is_refused_at_its_place)
+{
+    ldt t    = plain;
+    t.values = "100\n50";
+    assert_null(read_ldt(t));
+    assert_string_equal(r.err.text, "t:49:1: found the end of the file, expected intensity 3 of 3");
+    t.values = "100\nnan\n3";
+    assert_null(read_ldt(t));
+    assert_string_equal(r.err.text, "t:48:1: found 'nan', expected intensity 2 of 3");
+    t        = plain;
+    t.angles = "400";
+    assert_null(read_ldt(t));
+    assert_string_equal(r.err.text, "t:43:1: found '400', expected C plane 1 of 1, 0 to 360 deg");
+    t      = plain;
+    t.sets = "0\n";
+    assert_null(read_ldt(t));
+    assert_string_equal(r.err.text,
+                        "t:26:1: found '0', expected line 26, the number of sets of lamps, "
+                        "a whole number from 1 to 1000");
+    t.sets = "1\n1\nLED\n0\n\n\n5\n";
+    assert_null(read_ldt(t));
+    assert_string_equal(r.err.text,
+                        "t:29: found a flux of the lamps of 0 lm, expected > 0: intensities "
+                        "are given per 1000 lm");
+    t          = plain;
+    t.symmetry = "2", t.planes = "8", t.angles = "0\n10\n20\n30\n40\n50\n60\n70";
+    assert_null(read_ldt(t));
+    assert_string_equal(r.err.text,
+                        "t:43: found C planes from 0 to 40 for symmetry 2, expected 0 to 180");
+    t.angles = "0\n10\n10\n30\n40\n50\n60\n70";
+    assert_null(read_ldt(t));
+    assert_string_equal(
+        r.err.text, "t:45:1: found '10', expected C plane 3 of 8, larger than the one before (10)");
+}
+
+TEST(a_stated_output_that_the_web_does_not_have_is_doubted)
+{
+    assert_non_null(read_ldt(plain)); /* 3 rings of 200, 100, 0 cd: 365 lm of 2000 lm */
+    photometry_figures f = photometry_figure(r.p, "t", &r.n);
+    assert_near(f.lor, r.p->luminaire_lumens / 2000.0, 1e-12);
+    assert_true(
+        noticed("t: the light output ratio is stated as 100.0 %, the intensities add up to"));
+    ldt t    = plain;
+    t.values = "5000\n5000\n5000";
+    assert_non_null(read_ldt(t));
+    photometry_figure(r.p, "t", &r.n);
+    assert_true(noticed("more than its lamps"));
+}
+
+/* ---- figures ---------------------------------------------------------------------------- */
+
+/* I = 100 (1 - gamma / 90): half at 45 deg, a tenth at 81, on both sides. The flux within g is
+ * 2 pi 100 (1 - (1 - g/90) cos g - sin g / (pi/2)), by parts. */
+TEST(figures_of_a_straight_line_are_its_closed_forms)
+{
+    assert_non_null(read_ldt(plain));
+    photometry_figures f = photometry_figure(r.p, "t", NULL);
+    assert_near(f.beam_deg[0], 90.0, 1e-6);
+    assert_near(f.beam_deg[1], 90.0, 1e-6);
+    assert_near(f.field_deg[0], 162.0, 1e-6);
+    assert_near(f.maximum_cd, 200.0, 1e-6);
+    double within[4];
+    for (int i = 0; i < 4; i++) {
+        double g = acos(0.75 - 0.25 * i);
+        within[i] =
+            2.0 * M_PI * 200.0 * (1.0 - (1.0 - g / (M_PI / 2)) * cos(g) - sin(g) / (M_PI / 2));
+    }
+    assert_near(r.p->luminaire_lumens, within[3], 1e-9);
+    for (int i = 0; i < 3; i++)
+        assert_near(f.flux_code[i], 100.0 * within[i] / within[3], 1e-6);
+    assert_near(f.flux_code[3], 100.0, 1e-6);
+    assert_near(f.lor_up + 1.0, 1.0, 1e-12);
+    assert_near(f.efficacy, within[3] / 40.0, 1e-9);
+}
+
+/* C0 alone is bright, from gamma 45 to 90: its beam lies on one side; C180 has a tenth of it. */
+TEST(a_beam_on_one_side_is_as_wide_as_it_is)
+{
+    ldt t    = plain;
+    t.planes = "4", t.symmetry = "0", t.angles = "0\n90\n180\n270";
+    t.values = "0\n100\n100\n0\n0\n0\n0\n10\n0\n0\n0\n0";
+    assert_non_null(read_ldt(t));
+    photometry_figures f = photometry_figure(r.p, "t", NULL);
+    assert_near(f.beam_deg[0], 90.0 - 22.5, 1e-6);
+    assert_near(f.field_deg[0], 90.0 + 45.0, 1e-6); /* from C0 at 90 to C180 at 45 */
+    assert_true(f.beam_deg[1] == 0.0);
+    assert_true(f.maximum_plane_deg == 0.0 && f.maximum_gamma_deg == 45.0);
+}
+
+/* ---- round trips ------------------------------------------------------------------------ */
+
+static const photometry *again(const photometry *p, const char *path, reading *out)
+{
+    memset(out, 0, sizeof *out);
+    out->n.a = &out->a;
+    if (!photometry_write(p, path, &out->n, &out->err))
+        fail_msg("%s", out->err.text);
+    out->p = photometry_read(&out->a, path, &out->n, &out->err);
+    if (!out->p)
+        fail_msg("%s", out->err.text);
+    unlink(path);
+    return out->p;
+}
+
+/* The same light in all directions, the same opening in space, and what else is kept. */
+static void assert_same(const photometry *a, const photometry *b)
+{
+    for (int c = 0; c < 360; c += 9)
+        for (int g = 0; g <= 180; g += 5)
+            assert_near(photometry_candela(b, c, g), photometry_candela(a, c, g), 1e-6);
+    assert_near(b->luminaire_lumens, a->luminaire_lumens, 1e-6);
+    assert_near(b->lamp_lumens, a->lamp_lumens, 1e-6);
+    assert_near(b->watts, a->watts, 1e-6);
+    assert_int_equal(b->symmetry, a->symmetry);
+    assert_int_equal(b->absolute, a->absolute);
+    bool turned = a->length_along_deg != b->length_along_deg;
+    assert_near(b->length, turned ? a->width : a->length, 1e-6);
+    assert_near(b->width, turned ? a->length : a->width, 1e-6);
+    assert_near(b->height, a->height, 1e-6);
+    assert_string_equal(b->manufacturer, a->manufacturer);
+    assert_string_equal(b->name, a->name);
+    assert_string_equal(b->catalog, a->catalog);
+    assert_string_equal(b->lamp, a->lamp);
+}
+
+TEST(from_one_format_to_the_other_and_back_light_and_opening_stay)
+{
+    ldt t    = plain;
+    t.planes = "8", t.angles = EIGHT, t.opening = "1200\n300\n20\n20\n20\n20";
+    const char *symmetry[] = { "0", "1", "2", "3", "4" };
+    for (int i = 0; i < 5; i++) {
+        t.symmetry = symmetry[i];
+        t.values   = "9\n1\n1\n9\n1\n2\n9\n1\n3\n9\n1\n4\n9\n1\n5\n9\n1\n6\n9\n1\n7\n9\n1\n8";
+        t.sets     = i % 2 ? ONE_SET : "1\n-1\nLED\n500\n\n\n5\n";
+        reading ies, ldt_;
+        assert_non_null(read_ldt(t));
+        const photometry *b = again(r.p, "build/round_trip.ies", &ies);
+        assert_same(r.p, b);
+        assert_int_equal(b->format, PHOTOMETRY_LM63_2002);
+        assert_near(b->length, 0.3, 1e-6); /* along C0 what was the width */
+        const photometry *c = again(b, "build/round_trip.ldt", &ldt_);
+        assert_same(b, c);
+        assert_same(r.p, c);
+        assert_near(c->length, 1.2, 1e-6);
+        assert_int_equal(c->opening, OPENING_BOX);
+        arena_clear(&ies.a);
+        arena_clear(&ldt_.a);
+    }
+}
+
+TEST(a_web_without_planes_on_the_axes_is_written_whole)
+{
+    const float plane[] = { 30, 150, 270 }, gamma[] = { 10, 170 };
+    const float candela[] = { 1, 2, 3, 4, 5, 6 };
+    photometry p          = { .plane_count = 3,
+                              .gamma_count = 2,
+                              .plane_deg   = plane,
+                              .gamma_deg   = gamma,
+                              .candela     = candela,
+                              .absolute    = true };
+    p.luminaire_lumens    = photometry_flux(&p, 0, 180);
+    p.manufacturer = p.name = p.catalog = p.lamp = "";
+    reading out;
+    assert_same(&p, again(&p, "build/round_trip.ies", &out));
+    arena_clear(&out.a);
+    p.length_along_deg = 90.0f;
+    assert_same(&p, again(&p, "build/round_trip.ldt", &out));
+    arena_clear(&out.a);
+}
+
+TEST(round_openings_keep_their_shape_in_lm_63)
+{
+    const opening_shape shapes[] = { OPENING_POINT,          OPENING_LINE,
+                                     OPENING_RECTANGLE,      OPENING_BOX,
+                                     OPENING_DISC,           OPENING_VERTICAL_CYLINDER,
+                                     OPENING_SPHERE,         OPENING_CYLINDER_ALONG,
+                                     OPENING_CYLINDER_ACROSS };
+    for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++) {
+        assert_non_null(read_ldt(plain));
+        photometry p = *r.p;
+        p.opening = shapes[i], p.length_along_deg = 0.0f;
+        if (i > 0)
+            p.length = 0.5f;
+        if (i > 1)
+            p.width = 0.4f;
+        if (i == 3 || i > 4)
+            p.height = 0.3f;
+        reading out;
+        assert_int_equal(again(&p, "build/round_trip.ies", &out)->opening, shapes[i]);
+        assert_same(&p, out.p);
+        assert_int_equal(out.n.count, 0);
+        arena_clear(&out.a);
+    }
+}
+
+TEST(only_names_that_say_a_format_are_written)
+{
+    lux_error err = { 0 };
+    assert_non_null(read_ldt(plain));
+    assert_false(photometry_write(r.p, "build/web.txt", NULL, &err));
+    assert_string_equal(err.text, "build/web.txt: expected a name that ends in .ies or .ldt");
+    assert_false(photometry_write(r.p, "build/no/such/folder/web.ies", NULL, &err));
+    assert_int_equal(err.code, ERR_IO);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(intensities_are_per_1000_lumens_times_the_conversion_factor),
+        cmocka_unit_test(a_negative_number_of_lamps_is_absolute_photometry),
+        cmocka_unit_test(of_several_sets_of_lamps_the_first_counts),
+        cmocka_unit_test(symmetries_are_unfolded_as_stockmar_numbers_planes),
+        cmocka_unit_test(openings_are_round_where_the_width_is_0),
+        cmocka_unit_test(what_eulumdat_cannot_mean_is_refused_at_its_place),
+        cmocka_unit_test(a_stated_output_that_the_web_does_not_have_is_doubted),
+        cmocka_unit_test(figures_of_a_straight_line_are_its_closed_forms),
+        cmocka_unit_test(a_beam_on_one_side_is_as_wide_as_it_is),
+        cmocka_unit_test(from_one_format_to_the_other_and_back_light_and_opening_stay),
+        cmocka_unit_test(a_web_without_planes_on_the_axes_is_written_whole),
+        cmocka_unit_test(round_openings_keep_their_shape_in_lm_63),
+        cmocka_unit_test(only_names_that_say_a_format_are_written),
+    };
+    return cmocka_run_group_tests(tests, NULL, finish);
+}

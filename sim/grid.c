@@ -36,7 +36,10 @@ typedef struct grid_run_state {
 
 static bool plane_sensors(arena *a, const study_grid *g, grid_result *out, lux_error *err)
 {
-    study_grid_counts(g, &out->columns, &out->rows);
+    double along_u, along_v;
+    study_grid_counts(g, &along_u, &along_v);
+    out->columns         = (int)along_u;
+    out->rows            = (int)along_v;
     out->sensor_count    = out->columns * out->rows;
     grid_sensor *sensors = arena_array(a, grid_sensor, (size_t)out->sensor_count, err);
     if (!sensors)

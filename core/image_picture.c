@@ -13,10 +13,11 @@
 #include <pthread.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #define PLUGIN "liblux4_oiio.so"
+
+static const size_t MOST_BYTES = (size_t)1 << 30; /* of a picture's file */
 
 /* ---- finding it ------------------------------------------------------------------------- */
 
@@ -114,27 +115,111 @@ bool image_write_rgb8(const char *path, int width, int height, const uint8_t *rg
     return failed(err, ERR_ARGUMENT, "%s: cannot be written: %s", path, why.text);
 }
 
-/* Nothing that would keep a reader waiting for ever. */
-static bool is_regular(const char *path, lux_error *err)
+/* ---- PNG before it is read -------------------------------------------------------------- */
+
+/* libpng, as OpenImageIO calls it, prints what it dislikes on stderr, and leaks where it fails. It
+ * is given whole files alone, and none of the chunks that say nothing of the pixels. */
+
+static const char PNG_MAGIC[8]    = { '\x89', 'P', 'N', 'G', '\r', '\n', '\x1a', '\n' };
+static const char PNG_CHUNKS[][5] = { "IHDR", "PLTE", "tRNS", "IDAT", "IEND" };
+enum { CHUNK_FRAME = 12, CHUNK_LAST = sizeof PNG_CHUNKS / sizeof *PNG_CHUNKS - 1 };
+
+static uint32_t big_endian(const uint8_t *b)
 {
-    struct stat s;
-    if (stat(path, &s))
-        return failed(err, ERR_IO, "%s: no such file", path);
-    if (!S_ISREG(s.st_mode))
-        return failed(err, ERR_IO, "%s: is not a regular file", path);
+    return (uint32_t)b[0] << 24 | (uint32_t)b[1] << 16 | (uint32_t)b[2] << 8 | b[3];
+}
+
+/* ISO/IEC 15948, annex D, four bits at a time. */
+static uint32_t png_crc(const uint8_t *bytes, size_t size)
+{
+    static const uint32_t table[16] = {
+        0x00000000, 0x1db71064, 0x3b6e20c8, 0x26d930ac, 0x76dc4190, 0x6b6b51f4,
+        0x4db26158, 0x5005713c, 0xedb88320, 0xf00f9344, 0xd6d6a3e8, 0xcb61b38c,
+        0x9b64c2b0, 0x86d3d2d4, 0xa00ae278, 0xbdbdf21c,
+    };
+    uint32_t crc = 0xffffffff;
+    for (size_t i = 0; i < size; i++) {
+        crc ^= bytes[i];
+        crc = crc >> 4 ^ table[crc & 15];
+        crc = crc >> 4 ^ table[crc & 15];
+    }
+    return ~crc;
+}
+
+static bool is_png(const void *bytes, size_t size)
+{
+    return size >= sizeof PNG_MAGIC && memcmp(bytes, PNG_MAGIC, sizeof PNG_MAGIC) == 0;
+}
+
+/* Which of PNG_CHUNKS this is; -1: another. */
+static int chunk_kind(const uint8_t *chunk)
+{
+    for (int i = 0; i <= CHUNK_LAST; i++)
+        if (memcmp(chunk + 4, PNG_CHUNKS[i], 4) == 0)
+            return i;
+    return -1;
+}
+
+/* Copies a PNG without the chunks that are not needed; the size of the copy, or 0 if the file is
+ * cut or damaged. Each chunk is its length, four letters, as many bytes as its length says, a CRC.
+ */
+static size_t png_copy(const uint8_t *from, size_t size, uint8_t *to)
+{
+    size_t at = sizeof PNG_MAGIC, copied = sizeof PNG_MAGIC;
+    memcpy(to, from, at);
+    while (size - at >= CHUNK_FRAME) {
+        size_t length = big_endian(from + at);
+        if (length > size - at - CHUNK_FRAME)
+            return 0;
+        if (png_crc(from + at + 4, length + 4) != big_endian(from + at + 8 + length))
+            return 0;
+        int kind = chunk_kind(from + at);
+        if (kind >= 0) {
+            memcpy(to + copied, from + at, length + CHUNK_FRAME);
+            copied += length + CHUNK_FRAME;
+        }
+        if (kind == CHUNK_LAST)
+            return copied;
+        at += length + CHUNK_FRAME;
+    }
+    return 0;
+}
+
+static bool prepare_png(oiio_source *from, const char *path, arena *scratch, lux_error *err)
+{
+    uint8_t *copy = arena_array(scratch, uint8_t, from->size, err);
+    if (!copy)
+        return false;
+    from->size  = png_copy(from->bytes, from->size, copy);
+    from->bytes = copy;
+    return from->size || failed(err, ERR_FORMAT, "%s: PNG that is cut off or damaged", path);
+}
+
+/* ---- mean colours ----------------------------------------------------------------------- */
+
+static bool prepare(oiio_source *from, const char *path, arena *scratch, lux_error *err)
+{
+    bool file = !from->bytes;
+    if (file)
+        from->bytes = file_read(scratch, path, MOST_BYTES, &from->size, err);
+    if (!from->bytes)
+        return false;
+    if (is_png(from->bytes, from->size))
+        return prepare_png(from, path, scratch, err);
+    if (file)
+        from->bytes = NULL; /* not all formats can be read from memory */
     return true;
 }
 
 bool image_mean(const char *path, const void *bytes, size_t size, bool srgb, float mean[4],
                 lux_error *err)
 {
-    if (!bytes && !is_regular(path, err))
-        return false;
-    if (!plugin_ready(path, err))
-        return false;
-    const oiio_source from = { path, bytes, size, srgb };
-    oiio_message why       = { "" };
-    if (plugin.mean(&from, mean, &why))
-        return true;
-    return failed(err, ERR_FORMAT, "%s: cannot be read as a picture: %s", path, why.text);
+    arena scratch    = { 0 };
+    oiio_source from = { path, bytes, size, srgb };
+    oiio_message why = { "" };
+    bool ok          = prepare(&from, path, &scratch, err) && plugin_ready(path, err);
+    if (ok && !plugin.mean(&from, mean, &why))
+        ok = failed(err, ERR_FORMAT, "%s: cannot be read as a picture: %s", path, why.text);
+    arena_clear(&scratch);
+    return ok;
 }

@@ -392,7 +392,6 @@ TEST(files_of_others_are_read_or_refused)
             bool ok = image_read_exr(name, &a, &im, &err);
             read_count += ok;
             refused_count += !ok;
-            fprintf(stderr, "%s %s\n", ok ? "ok" : "NO", ok ? name : err.text);
             assert_true(ok || (err.code != ERR_NONE && strstr(err.text, e->d_name)));
             arena_clear(&a);
         }

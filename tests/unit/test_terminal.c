@@ -9,6 +9,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+static const double NOT_YET = (double)NAN;
+
 static const char *line(int columns, double share, double accuracy, double elapsed)
 {
     static char text[256];
@@ -28,7 +30,7 @@ TEST(the_line_shows_share_times_and_accuracy)
 
 TEST(what_is_not_known_yet_is_not_said)
 {
-    assert_line("view [-----------------]   0%  0:03", 0.0, NAN, 3.0);
+    assert_line("view [-----------------]   0%  0:03", 0.0, NOT_YET, 3.0);
 }
 
 TEST(hours_are_shown_as_hours)
@@ -43,7 +45,7 @@ TEST(the_line_fits_whatever_the_width)
         assert_true(length <= (columns > 1 ? (size_t)columns - 1 : 0));
         assert_true(length < 256);
     }
-    assert_true(strlen(line(80, NAN, NAN, 0.0)) < 80);
+    assert_true(strlen(line(80, NOT_YET, NOT_YET, 0.0)) < 80);
 }
 
 TEST(nothing_is_drawn_where_there_is_no_terminal)

@@ -126,8 +126,18 @@ static bool make_table(luminaire *l, const photometry *web, arena *a, lux_error 
         l->gamma_from = -1.0f;
     if (web->gamma_deg[web->gamma_count - 1] >= 180.0f)
         l->gamma_to = 4.0f;
-    return table_axis_check(&l->axes[0], "luminaire: C planes", err) &&
-           table_axis_check(&l->axes[1], "luminaire: angles gamma", err);
+    return true;
+}
+
+/* What a web made by a program may lack. */
+static bool check_web(const photometry *web, lux_error *err)
+{
+    if (!web || web->plane_count < 1 || web->gamma_count < 1)
+        return failed(err, ERR_ARGUMENT, "luminaire: there is no photometric web");
+    const table_axis plane = { web->plane_deg, web->plane_count, true, 360.0f };
+    const table_axis gamma = { web->gamma_deg, web->gamma_count, false, 0.0f };
+    return table_axis_check(&plane, "luminaire: C planes", err) &&
+           table_axis_check(&gamma, "luminaire: angles gamma", err);
 }
 
 const light *light_luminaire(arena *a, const luminaire_desc *d, lux_error *err)
@@ -139,8 +149,8 @@ const light *light_luminaire(arena *a, const luminaire_desc *d, lux_error *err)
         return failed(err, ERR_ARGUMENT, "luminaire: rotate is not finite");
     if (!v3_nonnegative(d->scale))
         return failed(err, ERR_ARGUMENT, "luminaire: a scale is not >= 0 W/sr for each candela");
-    if (!d->web || d->web->plane_count < 1 || d->web->gamma_count < 1)
-        return failed(err, ERR_ARGUMENT, "luminaire: there is no photometric web");
+    if (!check_web(d->web, err))
+        return NULL;
 
     luminaire *l = arena_new(a, luminaire, err);
     if (!l || !make_table(l, d->web, a, err))

@@ -12,6 +12,8 @@
 #include "lights/photometry.h"
 #include "tests/test.h"
 
+#include <stdio.h>
+
 enum { GAMMAS = 145, PLANES = 144 };
 
 typedef double intensity(double plane, double gamma);
@@ -113,6 +115,49 @@ TEST(illuminances_are_those_of_the_closed_forms)
     }
 }
 
+/* The direct part of a room with four downlights, as an independent program has it: its own table
+ * of the same .ies file, linear in angle too; to the digits that are printed, and float's. */
+TEST(a_room_of_four_downlights_is_as_others_have_it)
+{
+    static const vec3 at[4] = {
+        { 2.5f, 1.5f, 2.99f }, { 7.5f, 1.5f, 2.99f }, { 2.5f, 4.5f, 2.99f }, { 7.5f, 4.5f, 2.99f }
+    };
+    FILE *f = fopen("../shared/data/reference/box_ies/expected.csv", "r");
+    if (!f)
+        skip();
+    arena a = { 0 };
+    const photometry *p =
+        photometry_read(&a, "../shared/data/reference/box_ies/dl3000.ies", NULL, NULL);
+    assert_non_null(p);
+    assert_near(p->luminaire_lumens, 3001.27, 2e-6);
+    const light *l[4];
+    for (int i = 0; i < 4; i++) {
+        luminaire_desc d = {
+            .position = at[i], .aim = { 0, 0, -1 }, .scale = { 1, 1, 1 }, .web = p
+        };
+        l[i] = light_luminaire(&a, &d, NULL);
+    }
+
+    char line[256];
+    int sensors = 0;
+    while (fgets(line, sizeof line, f)) {
+        float x, y, z;
+        double want, got = 0.0;
+        if (sscanf(line, "%f,%f,%f,%lf", &x, &y, &z, &want) != 4)
+            continue; /* the header */
+        vvec3 point = vspread((vec3){ x, y, z });
+        vlight_sample s;
+        for (int i = 0; i < 4; i++)
+            if (vany(light_sample(l[i], &point, vsplat(0), vsplat(0), ALL_LANES, &s)))
+                got += (double)(lane(s.e.y, 0) * lane(s.wi.z, 0));
+        assert_near(got, want, 2e-6);
+        sensors++;
+    }
+    fclose(f);
+    arena_clear(&a);
+    assert_int_equal(sensors, 240);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -120,6 +165,7 @@ int main(void)
         cmocka_unit_test(fluxes_are_those_of_the_closed_forms),
         cmocka_unit_test(a_single_cell_is_integrated_exactly),
         cmocka_unit_test(illuminances_are_those_of_the_closed_forms),
+        cmocka_unit_test(a_room_of_four_downlights_is_as_others_have_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

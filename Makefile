@@ -64,6 +64,7 @@ TESTS := $(patsubst %.c,$B/%,$(wildcard tests/*/test_*.c))
 LONG  := $(patsubst %.c,$B/%,$(wildcard tests/*/long_*.c))
 BENCH := $(patsubst %.c,$B/%,$(wildcard tests/bench/bench_*.c))
 FUZZERS := $(patsubst %.c,$B/%,$(wildcard tests/fuzz/fuzz_*.c))
+OFFICE := $(patsubst %.c,$B/%.c.o,$(wildcard data/office/*.c))
 PROG  := $(patsubst sim/main.c,$B/lux4,$(wildcard sim/main.c))
 PLUG  := $(patsubst $(SHIM),$B/liblux4_oiio.so,$(wildcard $(SHIM)))
 TEXT  := $(wildcard $(foreach d,$(LAYERS) tests tests/* data/*,$d/*.[ch] $d/*.cpp))
@@ -96,6 +97,12 @@ $(FUZZERS): $B/%: $B/%.c.o $B/liblux4.a $B/links
 	@echo "LD   $@"
 	$Q$(CXX) $(LDFLAGS) $(filter %.o,$^) $(filter %.a,$^) $(LDLIBS) -o $@
 
+# The program that makes the office, and the test of what it makes
+$B/tests/unit/test_office: $(filter-out %/make_office.c.o,$(OFFICE))
+$B/make_office: $(OFFICE) $B/links
+	@echo "LD   $@"
+	$Q$(CXX) $(SANS) $(OFFICE) -lm -o $@
+
 $(PLUG): $(SHIM) $B/flags
 	@mkdir -p $(@D); echo "SO   $@"
 	$Q$(CXX) $(CPPFLAGS) $(PLUGIN_CFLAGS) $(CXXFLAGS) -fPIC -shared $(LDFLAGS) $< $(PLUGIN_LIBS) -o $@
@@ -115,7 +122,7 @@ $B/flags $B/links: FORCE
 	@mkdir -p $(@D); echo '$(subst ','\'',$(TELL))' | cmp -s - $@ || echo '$(subst ','\'',$(TELL))' > $@
 
 -include $(patsubst %,$B/%.d,$(SRC:=) $(AIDS) sim/main.c) $(addsuffix .c.d,$(TESTS) $(LONG) $(BENCH) $(FUZZERS))
--include $(PLUG:.so=.d)
+-include $(PLUG:.so=.d) $(OFFICE:.o=.d)
 
 # What is missing is installed for check and demo, which set a machine up; else it is named.
 build/pkg.mk: Makefile

@@ -123,7 +123,7 @@ static void along_walls(model *m, double detail)
 /* ---- the building ------------------------------------------------------------------------- */
 
 /* Where the luminaires sit: studies that place them repeat these. */
-static const double panel_x[] = { 1.5, 3.9, 6.3 }, panel_y[] = { 2.7, 5.1 };
+static const double panel_x[] = { 0.9, 3.9, 6.9 }, panel_y[] = { 2.7, 5.1 };
 static const double downlight_x = 8.7, downlight_y[] = { 1.5, 3.9, 6.3 };
 
 /* The grid, 0.6 m a module, between the friezes; cross bars a little higher than the runners. */

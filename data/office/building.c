@@ -10,8 +10,8 @@ shape shell(double detail)
     static const double north_x[] = {
         -0.25, 0.56, 2.56, 3.12, 5.12, 5.68, 7.68, 8.24, 10.24, 11.05
     };
-    static const double north_z[] = { -0.10, 0.85, 2.55, 3.10 };
-    static const double east_y[] = { -0.10, 0.75, 1.65, 7.30 }, east_z[] = { -0.10, 2.10, 3.10 };
+    static const double north_z[] = { -0.12, 0.85, 2.55, 3.12 };
+    static const double east_y[] = { -0.10, 0.75, 1.65, 7.30 }, east_z[] = { -0.11, 2.10, 3.11 };
     static const double band_x[] = { -0.05, 0.605, 10.195, 10.85 };
     static const double band_y[] = { -0.05, 0.605, 6.595, 7.25 };
     shape s                      = shape_new("Shell", detail);
@@ -23,7 +23,7 @@ shape shell(double detail)
 
     s.ink = WALL;
     add_box(&s, (point){ -0.25, -0.20, -0.10 }, (point){ 11.05, 0.0, 3.10 });
-    add_box(&s, (point){ -0.15, -0.10, -0.10 }, (point){ 0.0, 7.30, 3.10 });
+    add_box(&s, (point){ -0.15, -0.10, -0.09 }, (point){ 0.0, 7.30, 3.09 });
     add_plate(&s, &(plate){ 1, COUNT(north_x), COUNT(north_z), north_x, north_z,
                             "#########"
                             "# # # # #"
@@ -65,8 +65,7 @@ shape window_frame(double detail)
                             0.18, 0.25 });
     add_box(&s, (point){ -1.03, -0.04, 0.843 }, (point){ 1.03, 0.19, 0.873 });
     s.ink = METAL;
-    add_box(&s, (point){ -0.016, 0.165, 1.30 }, (point){ 0.016, 0.185, 1.37 });
-    add_box(&s, (point){ -0.010, 0.145, 1.24 }, (point){ 0.010, 0.168, 1.36 });
+    add_box(&s, (point){ -0.010, 0.150, 1.24 }, (point){ 0.010, 0.185, 1.36 });
     return s;
 }
 
@@ -125,9 +124,9 @@ shape panel(double detail)
     s.ink   = PAINT;
     add_box(&s, (point){ -0.297, -0.297, 0.0 }, (point){ 0.297, 0.297, 0.03 });
     s.ink = DIFFUSER;
-    for (int i = 0; i < 4; i++) { /* the linear lenses, along y: C90 */
-        const double x = -0.1995 + 0.133 * i;
-        add_box(&s, (point){ x - 0.054, -0.265, -0.003 }, (point){ x + 0.054, 0.265, 0.012 });
+    for (int i = 0; i < 3; i++) { /* the linear lenses, along y: C90 */
+        const double x = -0.177 + 0.177 * i;
+        add_box(&s, (point){ x - 0.076, -0.265, -0.003 }, (point){ x + 0.076, 0.265, 0.012 });
     }
     return s;
 }

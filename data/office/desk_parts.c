@@ -66,7 +66,7 @@ shape keyboard(double detail)
     add_cushion(&s, &(cushion){ .half       = { 0.031, 0.055, 0.018 },
                                 .squareness = 0.8,
                                 .edge       = 0.8,
-                                .segments   = 6,
+                                .segments   = 8,
                                 .rings      = 3 });
     return s;
 }
@@ -103,7 +103,7 @@ static void chair_base(shape *s)
     }
     s->ink = DARK_METAL;
     shape_at(s, (point){ 0 }, 0.0, 0.0);
-    add_lathe(s, &(lathe){ lift, COUNT(lift), 6, false });
+    add_lathe(s, &(lathe){ lift, COUNT(lift), 5, false });
     add_box(s, (point){ -0.09, -0.16, 0.395 }, (point){ 0.09, 0.12, 0.45 });
 }
 
@@ -136,15 +136,17 @@ shape office_chair(double detail)
     add_cushion(&s, &(cushion){ .half       = { 0.25, 0.24, 0.042 },
                                 .squareness = 0.55,
                                 .edge       = 0.55,
-                                .segments   = 12,
-                                .rings      = 4 });
+                                .segments   = 16,
+                                .rings      = 4,
+                                .ruled      = true });
     s.warp = back_warp;
     shape_at(&s, (point){ 0, -0.245, 0.82 }, 0.0, 98.0);
     add_cushion(&s, &(cushion){ .half       = { 0.225, 0.29, 0.032 },
                                 .squareness = 0.55,
                                 .edge       = 0.55,
-                                .segments   = 14,
-                                .rings      = 4 });
+                                .segments   = 16,
+                                .rings      = 4,
+                                .ruled      = true });
     s.warp = NULL;
     return s;
 }
@@ -157,6 +159,9 @@ shape desk_screen(double detail)
     s.ink   = SCREEN;
     add_box(&s, (point){ -0.015, -1.59, 0.60 }, (point){ 0.015, 1.59, 1.09 });
     s.ink = METAL;
+    for (int i = 0; i < 2; i++) /* clamped to the desks at either side */
+        add_box(&s, (point){ -0.09, i ? 1.19 : -1.21, 0.68 },
+                (point){ 0.09, i ? 1.21 : -1.19, 0.70 });
     add_box(&s, (point){ -0.018, -1.594, 1.085 }, (point){ 0.018, 1.594, 1.10 });
     return s;
 }

@@ -39,14 +39,14 @@ typedef struct workplace_parts {
 static void workplace(model *m, const workplace_parts *p, int number, point at, double turn_deg)
 {
     static const double chair_turn[] = { 6, -18, 25, -4, 14, -30, 3, -11 };
-    static const double chair_back[] = { 0.72, 0.78, 0.84, 0.70, 0.74, 0.88, 0.71, 0.76 };
+    static const double chair_back[] = { 0.64, 0.68, 0.72, 0.63, 0.66, 0.74, 0.63, 0.69 };
     node n   = { .shape = NO_SHAPE, .parent = NO_PARENT, .at = at, .turn_deg = turn_deg };
     n.mirror = number % 2 == 1;
     snprintf(n.name, sizeof n.name, "Workplace %d", number + 1);
 
     const int here = model_add_node(m, n);
     put_in(m, here, p->desk, (point){ 0 }, 0.0);
-    put_in(m, here, p->pedestal, (point){ 0.46, -0.07, 0.0 }, 0.0);
+    put_in(m, here, p->pedestal, (point){ 0.45, -0.07, 0.0 }, 0.0);
     if (number % 4 == 1) { /* two monitors, turned to the user */
         put_in(m, here, p->monitor, (point){ -0.33, 0.20, 0.722 }, 12.0);
         put_in(m, here, p->monitor, (point){ 0.33, 0.20, 0.722 }, -12.0);
@@ -164,8 +164,8 @@ void office_build(model *m, double detail)
     islands(m, detail);
     meeting_corner(m, detail);
     along_walls(m, detail);
-    model_add_camera(m, (camera){ "corner", { 0.45, 0.45, 1.6 }, { 6.5, 4.2, 1.05 }, 58.0 });
-    model_add_camera(m, (camera){ "entrance", { 10.3, 1.2, 1.6 }, { 4.5, 3.9, 1.0 }, 58.0 });
+    model_add_camera(m, (camera){ "corner", { 0.45, 0.45, 1.6 }, { 6.5, 4.2, 0.9 }, 58.0 });
+    model_add_camera(m, (camera){ "entrance", { 10.25, 2.0, 1.6 }, { 4.5, 3.9, 1.0 }, 58.0 });
 }
 
 /* ---- for the benchmark -------------------------------------------------------------------- */
@@ -187,8 +187,9 @@ void bench_build(model *m, uint32_t triangles)
         const double middle                                = 0.5 * (low + high);
         *(triangles_at(middle) < triangles ? &low : &high) = middle;
     }
-    model fine = { 0 };
-    office_build(&fine, high);
+    model fine           = { 0 };
+    const uint32_t under = triangles_at(low), over = triangles_at(high);
+    office_build(&fine, triangles - under < over - triangles ? low : high);
     put(m, model_add_shape(m, model_baked(&fine)), (point){ 0 }, 0.0);
     for (int i = 0; i < fine.camera_count; i++)
         model_add_camera(m, fine.cameras[i]);

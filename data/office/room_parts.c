@@ -23,12 +23,14 @@ shape meeting_table(double detail)
     return s;
 }
 
-/* A flat sheet along y becomes seat and back: it turns upwards behind y = -0.12. */
+/* A flat sheet along y becomes seat and back, with rounded ends: it turns up behind y = -0.1. */
 static void shell_warp(point *p)
 {
     const double radius = 0.14, start = -0.10, bend = 78.0 * RAD;
     const double thick = p->z;
     const double along = (start - p->y) / radius; /* rad around the bend */
+    const double end   = pow((p->y + 0.17) / 0.39, 6.0);
+    p->x *= 1.0 - 0.3 * end;
     p->z += 0.45 * p->x * p->x;
     if (along <= 0.0)
         return;
@@ -40,23 +42,21 @@ static void shell_warp(point *p)
 
 shape meeting_chair(double detail)
 {
-    shape s = shape_new("Meeting chair", detail);
-    s.ink   = METAL;
+    static const double x[] = { -0.225, -0.13, 0.13, 0.225 };
+    static const double y[] = { -0.56, -0.50, -0.38, -0.29, -0.23, -0.17, -0.10, 0.13, 0.22 };
+    shape s                 = shape_new("Meeting chair", detail);
+    s.ink                   = METAL;
     for (int i = 0; i < 4; i++) {
-        const double x = i & 1 ? 1 : -1, y = i & 2 ? 1 : -1;
-        const point leg[] = { { x * 0.10, y * 0.09 + 0.02, 0.425 },
-                              { x * 0.235, y * 0.215 + 0.02, 0.001 } };
+        const double a = i & 1 ? 1 : -1, b = i & 2 ? 1 : -1;
+        const point leg[] = { { a * 0.10, b * 0.09 + 0.02, 0.425 },
+                              { a * 0.235, b * 0.215 + 0.02, 0.001 } };
         add_tube(&s, &(tube){ leg, 2, 3, 0.014, 0.009 });
     }
     s.ink  = SEAT;
     s.warp = shell_warp;
     shape_at(&s, (point){ 0, 0, 0.43 }, 0.0, 0.0);
-    add_cushion(&s, &(cushion){ .centre     = { 0, -0.175, 0.0 },
-                                .half       = { 0.225, 0.40, 0.009 },
-                                .squareness = 0.5,
-                                .edge       = 0.3,
-                                .segments   = 18,
-                                .rings      = 5 });
+    add_plate(&s,
+              &(plate){ 2, COUNT(x), COUNT(y), x, y, "########################", -0.006, 0.006 });
     s.warp = NULL;
     return s;
 }
@@ -75,7 +75,7 @@ static void book_row(shape *s, double a, double b, double z, uint32_t *seed)
 {
     const double end = a + (b - a) * (0.40 + 0.55 * draw(seed));
     for (double y = a; y < end - 0.075;) {
-        const double thick = 0.050 + 0.055 * draw(seed), tall = 0.20 + 0.10 * draw(seed);
+        const double thick = 0.055 + 0.058 * draw(seed), tall = 0.20 + 0.10 * draw(seed);
         const double deep = 0.17 + 0.07 * draw(seed);
         s->ink            = (material)(BOOK_RED + (int)(draw(seed) * 6.0));
         add_box(s, (point){ -0.31, y, z - 0.002 }, (point){ -0.31 + deep, y + thick, z + tall });
@@ -142,16 +142,16 @@ shape plant(double detail)
     add_lathe(&s, &(lathe){ soil, COUNT(soil), 10, false });
 
     s.ink = LEAF;
-    for (int i = 0; i < 16; i++) {
+    for (int i = 0; i < 11; i++) {
         const double turn = i * 137.5, size = 0.34 + 0.14 * draw(&seed);
-        const double root = 0.36 + 0.045 * i, x = 0.012 * cos(turn * RAD);
+        const double root = 0.36 + 0.066 * i, x = 0.012 * cos(turn * RAD);
         s.warp = leaf_warp;
         shape_at(&s, (point){ x, 0.012 * sin(turn * RAD), root }, turn, 0.0);
         add_cushion(&s, &(cushion){ .centre     = { 0.5 * size + 0.02, 0, 0 },
                                     .half       = { 0.5 * size, 0.062, 0.003 },
                                     .squareness = 1.0,
                                     .edge       = 1.0,
-                                    .segments   = 6,
+                                    .segments   = 8,
                                     .rings      = 3 });
     }
     s.warp                    = NULL;

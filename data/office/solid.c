@@ -314,13 +314,29 @@ static void cushion_ring(shape *s, ring *to, const cushion *c, double tilt, int 
     }
 }
 
+/* An end of straight strips along x, each between two places of the ring as far along y. */
+static void strips(shape *s, const ring *end, int n, bool lowest)
+{
+    for (int k = 0; k + 1 < n / 2; k++) {
+        const uint32_t right = end->at[(n + n / 4 - 1 - k) % n], left = end->at[n / 4 + k];
+        const uint32_t right2 = end->at[(n + n / 4 - 2 - k) % n], left2 = end->at[n / 4 + k + 1];
+        if (lowest)
+            quad(s, right, right2, left2, left);
+        else
+            quad(s, right, left, left2, right2);
+    }
+}
+
 void add_cushion(shape *s, const cushion *c)
 {
-    const int n = 2 * (fine(s, c->segments, 4) / 2), rows = fine(s, c->rings, 3);
+    const int n = 4 * (fine(s, c->segments, 4) / 4), rows = fine(s, c->rings, 3);
+    const int skip = c->ruled ? 1 : 0; /* strips instead of poles */
     ring rings[2];
-    cushion_ring(s, &rings[0], c, -0.25 * TURN, n);
-    for (int i = 1; i <= rows; i++) {
+    for (int i = skip; i <= rows - skip; i++) {
         cushion_ring(s, &rings[i & 1], c, TURN * (0.5 * i / rows - 0.25), n);
-        join(s, &rings[~i & 1], &rings[i & 1], n);
+        if (i > skip)
+            join(s, &rings[~i & 1], &rings[i & 1], n);
+        if (c->ruled && (i == 1 || i == rows - 1))
+            strips(s, &rings[i & 1], n, i == 1);
     }
 }

@@ -112,9 +112,10 @@ void add_tube(shape *s, const tube *t);
 /* A cushion: |x/a|^(2/e)... with half sizes h; e near 0 is a box, 1 an ellipsoid. rings >= 3. */
 typedef struct cushion {
     point centre, half;
-    double squareness; /* e of the horizontal section, (0, 1] */
-    double edge;       /* e of the vertical section, (0, 1] */
-    int segments, rings;
+    double squareness;   /* e of the horizontal section, (0, 1] */
+    double edge;         /* e of the vertical section, (0, 1] */
+    int segments, rings; /* segments: a multiple of 4 */
+    bool ruled;          /* flat sides of strips along x that a warp along y bends evenly */
 } cushion;
 void add_cushion(shape *s, const cushion *c);
 

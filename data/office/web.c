@@ -75,7 +75,7 @@ bool panel_write(FILE *to)
                 "make_office\r\n");
     fprintf(to, "600\r\n600\r\n30\r\n530\r\n530\r\n0\r\n0\r\n0\r\n0\r\n"); /* mm */
     fprintf(to, "100\r\n100\r\n1\r\n0\r\n1\r\n"); /* DFF, LORL, factor, tilt, one set of lamps */
-    fprintf(to, "1\r\nLED\r\n%.0f\r\n4000 K\r\n1B\r\n42\r\n", PANEL_LUMENS);
+    fprintf(to, "1\r\nLED\r\n%.0f\r\n4000 K\r\n1B\r\n43\r\n", PANEL_LUMENS);
     for (int i = 0; i < 10; i++)
         fprintf(to, "0\r\n"); /* direct ratios: not given */
     for (int p = 0; p < PLANES; p++)

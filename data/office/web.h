@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-#define PANEL_LUMENS     4600.0
+#define PANEL_LUMENS     5500.0
 #define DOWNLIGHT_LUMENS 2000.0
 
 /* cd per lumen of the luminaire, C and gamma in degrees. */

@@ -103,6 +103,9 @@ $B/make_office: $(OFFICE) $B/links
 	@echo "LD   $@"
 	$Q$(CXX) $(SANS) $(OFFICE) -lm -o $@
 
+build/bench/office-%.glb: $B/make_office
+	@mkdir -p $(@D); $< --bench $* $@
+
 $(PLUG): $(SHIM) $B/flags
 	@mkdir -p $(@D); echo "SO   $@"
 	$Q$(CXX) $(CPPFLAGS) $(PLUGIN_CFLAGS) $(CXXFLAGS) -fPIC -shared $(LDFLAGS) $< $(PLUGIN_LIBS) -o $@
@@ -155,7 +158,7 @@ demo: all
 	$(PROG) render data/office/office.yaml
 
 ## bench: rays per second, packets against one ray at a time, appended to build/bench.log
-bench: $(BENCH)
+bench: $(BENCH) build/bench/office-65000.glb build/bench/office-270000.glb
 	@{ echo "# $$(git describe --always --dirty 2>/dev/null) $(CC) $(OPT)"; \
 	  for b in $(BENCH); do $$b; done; } | tee -a build/bench.log
 

@@ -55,8 +55,8 @@ LDLIBS   := $(PKG_LIBS) -lm -ldl -pthread
 # ---- what there is to build -----------------------------------------------------------------
 
 TOOL  := $(if $(findstring clang,$(CC)),clang-)
-KIND  := $(if $(FUZZ),fuzz,$(if $(SAN),san,$(if $(DEBUG),debug,$(if $(NATIVE),native,release))))
-B     := build/$(TOOL)$(KIND)-$(WIDTH)
+KIND  := $(TOOL)$(if $(FUZZ),fuzz,$(if $(SAN),san,$(if $(DEBUG),debug,$(if $(NATIVE),native,release))))
+B     := build/$(KIND)-$(WIDTH)
 SHIM  := core/image_oiio.cpp
 SRC   := $(filter-out sim/main.c $(SHIM),$(wildcard $(LAYERS:%=%/*.c) $(LAYERS:%=%/*.cpp)))
 AIDS  := $(wildcard tests/*.c)
@@ -74,8 +74,8 @@ MAKEFLAGS += --no-builtin-rules --no-print-directory
 Q         := $(if $V,,@)
 .DELETE_ON_ERROR:
 .SECONDARY:
-.PHONY: all check check-long tests demo bench bench-deps deps fuzz fuzzers install layers format \
-        format-check clean help FORCE
+.PHONY: all check check-long tests demo bench bench-programs bench-deps deps fuzz fuzzers install layers \
+        format format-check clean help FORCE
 
 ## all: the library and the program (what plain `make` does)
 all: $B/liblux4.a $(PROG) $(PLUG)
@@ -88,6 +88,7 @@ $(PROG): $B/sim/main.c.o
 $(TESTS) $(LONG) $(BENCH): $B/%: $B/%.c.o $(AIDS:%=$B/%.o)
 $(TESTS) $(LONG) $(BENCH): private LDFLAGS += -Wl,--wrap=aligned_alloc
 $(TESTS) $(LONG) $(BENCH): private LDLIBS += $(TEST_LIBS)
+$B/tests/bench/bench_trace: private LDLIBS += -lembree3
 $(PROG) $(TESTS) $(LONG) $(BENCH): $B/liblux4.a $B/links
 	@echo "LD   $@"
 	$Q$(CXX) $(LDFLAGS) $(filter %.o,$^) $(filter %.a,$^) $(LDLIBS) -o $@
@@ -157,10 +158,19 @@ demo: all
 	$(PROG) grid data/office/office.yaml
 	$(PROG) render data/office/office.yaml
 
-## bench: rays per second, packets against one ray at a time, appended to build/bench.log
-bench: $(BENCH) build/bench/office-65000.glb build/bench/office-270000.glb
+## bench: rays per second of packets, of one ray at a time and of Embree, appended to build/bench.log
+bench: bench-deps build/bench/office-65000.glb build/bench/office-270000.glb
+	$Q$(MAKE) bench-programs WIDTH=4
+	$Q$(MAKE) bench-programs WIDTH=1
 	@{ echo "# $$(git describe --always --dirty 2>/dev/null) $(CC) $(OPT)"; \
-	  for b in $(BENCH); do $$b; done; } | tee -a build/bench.log
+	  for b in $(BENCH:$B/%=%); do build/$(KIND)-4/$$b build/$(KIND)-1/$$b; done; } | tee -a build/bench.log
+
+bench-programs: $(BENCH)
+
+## bench-deps: install what the benchmarks alone are measured against
+bench-deps:
+	@[ -e /usr/include/embree3/rtcore.h ] || pkg-config --exists embree3 \
+	  || $(MAKE) deps DEBS="$(BENCH_DEBS)"
 
 ## deps: install the packages this needs (Debian, Ubuntu; elsewhere: name them)
 deps:

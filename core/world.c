@@ -94,7 +94,7 @@ static placed place(const world_instance *from)
 /* The box of what the mesh's box becomes, a little wider for what rounds. */
 static bsp_box placed_box(const transform *t, const bsp *tree)
 {
-    double low[3] = { INFINITY, INFINITY, INFINITY }, high[3] = { -INFINITY, -INFINITY, -INFINITY };
+    double low[3] = { HUGE_VAL, HUGE_VAL, HUGE_VAL }, high[3] = { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
     for (int corner = 0; corner < 8; corner++) {
         dvec3 p            = { (double)(corner & 1 ? tree->high.x : tree->low.x),
                                (double)(corner & 2 ? tree->high.y : tree->low.y),

@@ -2,8 +2,9 @@
  *
  * A node is 8 bytes; its two children stand side by side, in one cache line:
  *
- *     inner   link = child << 2 | axis         split   where the plane is
- *             nodes[child] is what lies below it on the axis, nodes[child + 1] what lies above
+ *     inner   link = child << 3 | axis         split   where the plane is
+ *             nodes[child] is what lies below it on the axis, nodes[child + 1] what lies above;
+ *             child is even, so that child << 3 is how many bytes it lies behind nodes[0]
  *     leaf    link = count << 2 | BSP_LEAF     first   its items: items[first .. first + count)
  *
  * nodes[0] is the root and nodes[1] is not used, so that all pairs are aligned. The items of a
@@ -21,7 +22,7 @@
 
 #include <stdint.h>
 
-enum { BSP_LEAF = 3, BSP_STACK = 64, BSP_MOST_ITEMS = 1 << 29 };
+enum { BSP_LEAF = 3, BSP_STACK = 64, BSP_MOST_ITEMS = 1 << 29, BSP_MOST_NODES = 1 << 29 };
 
 typedef struct bsp_node {
     uint32_t link;

@@ -57,7 +57,8 @@ static bool grow(void **array, size_t *room, size_t want, size_t size)
 
 static bool add_nodes(growth *g, uint32_t count)
 {
-    if (!grow((void **)&g->nodes, &g->nodes_room, g->nodes_used + count, sizeof *g->nodes))
+    if (g->nodes_used + count > BSP_MOST_NODES ||
+        !grow((void **)&g->nodes, &g->nodes_room, g->nodes_used + count, sizeof *g->nodes))
         return false;
     for (uint32_t i = 0; i < count; i++)
         g->nodes[g->nodes_used++] = (bsp_node){ .link = EMPTY_CELL };
@@ -72,7 +73,8 @@ static int by_number(const void *a, const void *b)
 
 static bool make_leaf(growth *g, const cell *c, uint32_t node)
 {
-    if (!grow((void **)&g->items, &g->items_room, g->items_used + c->things, sizeof *g->items))
+    if (g->items_used + c->things > UINT32_MAX ||
+        !grow((void **)&g->items, &g->items_room, g->items_used + c->things, sizeof *g->items))
         return false;
     uint32_t *items = g->items + g->items_used;
     uint32_t count  = 0;
@@ -101,7 +103,7 @@ static bool build_cell(const build *b, growth *g, stack *s, uint8_t *sides, cons
     uint32_t child = (uint32_t)g->nodes_used;
     if (!add_nodes(g, 2))
         return false;
-    g->nodes[node].link  = child << 2 | (uint32_t)p.axis;
+    g->nodes[node].link  = child << 3 | (uint32_t)p.axis;
     g->nodes[node].split = p.at;
 
     /* As deep as the tree, which is bounded */
@@ -142,7 +144,7 @@ static bool build_upper(build *b, growth *g, part *p, uint32_t node)
         stack_back(&p->lists, (stack_mark){ 0 });
         return done;
     }
-    g->nodes[node].link  = child << 2 | (uint32_t)best.axis;
+    g->nodes[node].link  = child << 3 | (uint32_t)best.axis;
     g->nodes[node].split = best.at;
 
     /* Each child's lists on a stack of its own, since they end at different times */
@@ -258,7 +260,7 @@ static bool append(growth *g, const part *p)
 {
     uint32_t nodes = (uint32_t)p->tree.nodes_used - 2, at = (uint32_t)g->nodes_used;
     uint32_t items = (uint32_t)p->tree.items_used, first = (uint32_t)g->items_used;
-    if (!add_nodes(g, nodes) ||
+    if (!add_nodes(g, nodes) || g->items_used + items > UINT32_MAX ||
         !grow((void **)&g->items, &g->items_room, first + (size_t)items, sizeof *g->items))
         return false;
     if (items > 0)
@@ -269,7 +271,7 @@ static bool append(growth *g, const part *p)
         if ((n.link & 3) == BSP_LEAF)
             n.first += first;
         else
-            n.link += (at - 2) << 2;
+            n.link += (at - 2) << 3;
         if (i != 1)
             g->nodes[i == 0 ? p->node : at + i - 2] = n;
     }

@@ -1,8 +1,8 @@
 /* core/trace.h -- inside a world: its parts, and what both ways of walking them share.
  *
- * Rays are walked as packets (trace_packet.c) or one by one, LANES triangles being tested at
- * once (trace_single.c). Both do the same arithmetic in the same order for each ray, visit the
- * same leaves and so find the same hits, to the bit.
+ * Packets are walked as they come (trace_packet.c), or a batch is first put into packets of rays
+ * that go the same way (trace_sorted.c). What a ray does never depends on those beside it: it
+ * visits the same leaves in the same order and so finds the same hit, to the bit.
  *
  * Planes have a width. The watertight test is exact, for triangles whose corners are rounded
  * after they were moved to the ray: a ray may so meet a triangle by a hair's breadth outside of
@@ -74,11 +74,30 @@ void hit_list_clear(vhit *hit, int lane_number); /* a miss */
  * that come again in many leaves. */
 enum { MAILBOXES = 8 };
 
+/* One packet (trace_packet.c). */
 void trace_packet_first(const world *w, const vray *ray, vmask active, vhit *hit);
-void trace_packet_any(const world *w, const vray *ray, vmask active, vmask *blocked);
+vmask trace_packet_any(const world *w, const vray *ray, vmask active);
 void trace_packet_all(const world *w, const vray *ray, vmask active, hit_list *list);
-void trace_single_first(const world *w, const vray *ray, vmask active, vhit *hit);
-void trace_single_any(const world *w, const vray *ray, vmask active, vmask *blocked);
+
+/* A batch, in packets of rays that go the same way (trace_sorted.c). */
+void trace_sorted_first(const world *w, const vray *rays, const vmask *active, int packets,
+                        vhit *hits);
+void trace_sorted_any(const world *w, const vray *rays, const vmask *active, int packets,
+                      vmask *blocked);
+
+/* Signs of a direction (bits 0 to 2), and which of x, y, z is its largest (bits 3 and 4). */
+static inline vint direction_code(vvec3 d)
+{
+    vfloat x = vabs(d.x), y = vabs(d.y), z = vabs(d.z);
+    vmask of_x = (x >= y) & (x >= z);
+    vmask of_z = ~of_x & ~(y >= z);
+    vint code  = vselect_int(of_x, vsplat_int(0), vselect_int(of_z, vsplat_int(16), vsplat_int(8)));
+    code |= vkeep_int(vas_int(d.x) < 0, vsplat_int(1));
+    code |= vkeep_int(vas_int(d.y) < 0, vsplat_int(2));
+    code |= vkeep_int(vas_int(d.z) < 0, vsplat_int(4));
+    return code;
+}
+enum { DIRECTION_CODES = 24 };
 
 void projection_make(const float *corners, projection *p);
 

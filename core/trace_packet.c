@@ -16,27 +16,30 @@
 
 /* Rays as a tree sees them: a plane at x is crossed between x * inverse - later and
  * x * inverse - sooner, its width included. */
+typedef struct vslab {
+    vfloat inverse, later, sooner;
+} vslab;
+
 typedef struct vslabs {
-    vfloat inverse[3], later[3], sooner[3];
+    vslab axis[3];
     vfloat near, far; /* where in the box */
-    int back[3];      /* 1 where directions are negative: the upper child comes first */
+    uint32_t back[3]; /* how far, in bytes, the first child is behind the lower: 0, or a node */
 } vslabs;
 
-INLINE void slab_axis(vslabs *s, int axis, vfloat o, vfloat d, vfloat least, vfloat width)
+INLINE vslab slab_make(vfloat o, vfloat d, vfloat least, vfloat width)
 {
-    vfloat size      = vmax(vabs(d), least);
-    s->inverse[axis] = 1.0f / vcopysign(size, d);
-    vfloat w         = width * vabs(s->inverse[axis]);
-    vfloat middle    = o * s->inverse[axis];
-    s->later[axis]   = middle + w;
-    s->sooner[axis]  = middle - w;
+    vfloat inverse = 1.0f / vcopysign(vmax(vabs(d), least), d);
+    vfloat w       = width * vabs(inverse);
+    vfloat middle  = o * inverse;
+    return (vslab){ inverse, middle + w, middle - w };
 }
 
 INLINE void slab_cut(vslabs *s, int axis, float low, float high)
 {
+    const vslab *a = &s->axis[axis];
     float first = s->back[axis] ? high : low, last = s->back[axis] ? low : high;
-    s->near = vmax(first * s->inverse[axis] - s->later[axis], s->near);
-    s->far  = vmin(last * s->inverse[axis] - s->sooner[axis], s->far);
+    s->near = vmax(first * a->inverse - a->later, s->near);
+    s->far  = vmin(last * a->inverse - a->sooner, s->far);
 }
 
 INLINE vfloat largest(vvec3 a) { return vmax(vabs(a.x), vmax(vabs(a.y), vabs(a.z))); }
@@ -44,13 +47,13 @@ INLINE vfloat largest(vvec3 a) { return vmax(vabs(a.x), vmax(vabs(a.y), vabs(a.z
 /* The lanes of active, which agree in their signs, in the tree's box. */
 INLINE vslabs slabs_make(const bsp *b, vvec3 o, vvec3 d, unsigned signs, vmask active, vfloat far)
 {
-    vslabs s     = { .back = { (int)(signs & 1), (int)(signs >> 1 & 1), (int)(signs >> 2 & 1) } };
     vfloat box   = vmax(largest(vspread(b->low)), largest(vspread(b->high)));
     vfloat width = TRACE_WIDTH * vmax(largest(o), box);
     vfloat least = 0x1p-64f * largest(d); /* so that no inverse is infinite */
-    slab_axis(&s, 0, o.x, d.x, least, width);
-    slab_axis(&s, 1, o.y, d.y, least, width);
-    slab_axis(&s, 2, o.z, d.z, least, width);
+    vslabs s     = { .axis = { slab_make(o.x, d.x, least, width), slab_make(o.y, d.y, least, width),
+                               slab_make(o.z, d.z, least, width) } };
+    for (int k = 0; k < 3; k++)
+        s.back[k] = signs >> k & 1 ? sizeof(bsp_node) : 0;
 
     s.near = vselect(active, vsplat(0.0f), vsplat(INFINITY));
     s.far  = vselect(active, far, vsplat(-INFINITY));
@@ -73,6 +76,7 @@ INLINE void walk(const bsp *b, const vslabs *s, const vfloat *limit, leaf_fn *le
 {
     later stack[BSP_STACK];
     later *top           = stack;
+    const char *nodes    = (const char *)b->nodes;
     const bsp_node *node = b->nodes;
     vfloat near = s->near, far = s->far;
     if (!vany(near <= far))
@@ -80,24 +84,23 @@ INLINE void walk(const bsp *b, const vslabs *s, const vfloat *limit, leaf_fn *le
     for (;;) {
         uint32_t axis;
         while ((axis = node->link & 3) != BSP_LEAF) {
-            vfloat at    = node->split * s->inverse[axis];
-            vfloat enter = vmax(at - s->later[axis], near); /* the second child */
-            vfloat leave = vmin(at - s->sooner[axis], far); /* the first child */
-            vmask first  = near <= leave;
-            vmask second = enter <= far;
+            const vslab *a = &s->axis[axis];
+            vfloat at      = node->split * a->inverse;
+            vfloat enter   = vmax(at - a->later, near); /* the second child */
+            vfloat leave   = vmin(at - a->sooner, far); /* the first child */
+            vmask first    = near <= leave;
+            vmask second   = enter <= far;
 
-            const bsp_node *child = b->nodes + (node->link >> 2);
-            const bsp_node *other = child + (s->back[axis] ^ 1);
-            child += s->back[axis];
+            uint32_t child        = (node->link ^ axis) + s->back[axis];
+            const bsp_node *other = (const bsp_node *)(nodes + (child ^ sizeof(bsp_node)));
+            node                  = (const bsp_node *)(nodes + child);
             if (!vany(second)) {
-                node = child;
-                far  = leave;
+                far = leave;
             } else if (!vany(first)) {
                 node = other;
                 near = enter;
             } else {
                 *top++ = (later){ enter, far, other };
-                node   = child;
                 far    = leave;
             }
         }
@@ -225,19 +228,6 @@ static walk_fn *const walks[2][3] = {
 
 /* ---- groups --------------------------------------------------------------------------------- */
 
-/* Signs of the direction (bits 0 to 2), and which of x, y, z is its largest (bits 3 and 4). */
-INLINE vint direction_code(vvec3 d)
-{
-    vfloat x = vabs(d.x), y = vabs(d.y), z = vabs(d.z);
-    vmask of_x = (x >= y) & (x >= z);
-    vmask of_z = ~of_x & ~(y >= z);
-    vint code  = vselect_int(of_x, vsplat_int(0), vselect_int(of_z, vsplat_int(16), vsplat_int(8)));
-    code |= vselect_int(vas_int(d.x) < 0, vsplat_int(1), vsplat_int(0));
-    code |= vselect_int(vas_int(d.y) < 0, vsplat_int(2), vsplat_int(0));
-    code |= vselect_int(vas_int(d.z) < 0, vsplat_int(4), vsplat_int(0));
-    return code;
-}
-
 static void walk_mesh(pass *p, query_kind kind, vvec3 o, vvec3 d, vmask lanes)
 {
     const vfloat po[5] = { o.x, o.y, o.z, o.x, o.y }, pd[5] = { d.x, d.y, d.z, d.x, d.y };
@@ -358,11 +348,11 @@ void trace_packet_first(const world *w, const vray *ray, vmask active, vhit *hit
     hit->v        = q.v;
 }
 
-void trace_packet_any(const world *w, const vray *ray, vmask active, vmask *blocked)
+vmask trace_packet_any(const world *w, const vray *ray, vmask active)
 {
     query q = query_make(w, ray, active);
     walk_world(&q, ANY_HIT, active);
-    *blocked = active & (q.limit < 0.0f);
+    return active & (q.limit < 0.0f);
 }
 
 void trace_packet_all(const world *w, const vray *ray, vmask active, hit_list *list)

@@ -1,6 +1,8 @@
 /* core/table.c -- see table.h. */
 #include "core/table.h"
 
+#include <math.h>
+
 bool table_axis_check(const table_axis *axis, const char *what, lux_error *err)
 {
     if (axis->count < 1)
@@ -19,4 +21,19 @@ bool table_axis_check(const table_axis *axis, const char *what, lux_error *err)
         return failed(err, ERR_ARGUMENT, "%s: a period of %g, more than %g was expected", what,
                       (double)axis->period, (double)span);
     return true;
+}
+
+float table_axis_density(const table_axis *axis)
+{
+    int cells   = axis->periodic ? axis->count : axis->count - 1;
+    double span = axis->periodic ? (double)axis->period
+                                 : (double)axis->at[axis->count - 1] - (double)axis->at[0];
+    if (cells < 2 || !(span > 0.0))
+        return 0.0f;
+    for (int i = 0; i < axis->count; i++) {
+        double off = ((double)axis->at[i] - (double)axis->at[0]) * cells / span - i;
+        if (!(fabs(off) < 0.25))
+            return 0.0f;
+    }
+    return (float)(cells / span);
 }

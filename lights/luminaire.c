@@ -35,6 +35,7 @@ typedef struct luminaire {
     const float *candela;
     table_axis axes[2];         /* rad: C, gamma */
     float gamma_from, gamma_to; /* rad: dark outside of them */
+    float down_least;           /* cosine of gamma_to, less a rounding: below it all is dark */
 } luminaire;
 
 static vmask luminaire_sample(const light *self, const vvec3 *p, vfloat s, vfloat t, vmask active,
@@ -49,11 +50,15 @@ static vmask luminaire_sample(const light *self, const vvec3 *p, vfloat s, vfloa
     vvec3 wi     = vscale(to, 1.0f / dist);
 
     /* Where the point lies in the luminaire's frame */
-    vfloat x     = -vdot(wi, vspread(l->c0));
-    vfloat y     = -vdot(wi, vspread(l->c90));
-    vfloat down  = -vdot(wi, vspread(l->axis));
+    vfloat x    = -vdot(wi, vspread(l->c0));
+    vfloat y    = -vdot(wi, vspread(l->c90));
+    vfloat down = -vdot(wi, vspread(l->axis));
+    if (!vany(active & (down >= l->down_least))) {
+        *out = (vlight_sample){ 0 };
+        return (vmask){ 0 };
+    }
     vfloat gamma = vatan2(vsqrt(x * x + y * y), down);
-    vfloat plane = vatan2(y, x);
+    vfloat plane = l->axes[0].count > 1 ? vatan2(y, x) : vsplat(0.0f);
 
     vfloat cd = vtable_lookup2(l->candela, l->axes, plane, gamma);
     vmask lit =
@@ -117,15 +122,18 @@ static bool make_table(luminaire *l, const photometry *web, arena *a, lux_error 
     const float *gamma = plane ? radians(a, web->gamma_deg, web->gamma_count, err) : NULL;
     if (!gamma)
         return false;
-    l->candela    = web->candela;
-    l->axes[0]    = (table_axis){ plane, web->plane_count, true, (float)(2.0 * M_PI) };
-    l->axes[1]    = (table_axis){ gamma, web->gamma_count };
+    l->candela = web->candela;
+    l->axes[0] = (table_axis){ plane, web->plane_count, true, (float)(2.0 * M_PI) };
+    l->axes[1] = (table_axis){ gamma, web->gamma_count };
+    for (int i = 0; i < 2; i++)
+        l->axes[i].density = table_axis_density(&l->axes[i]);
     l->gamma_from = gamma[0];
     l->gamma_to   = gamma[web->gamma_count - 1];
     if (web->gamma_deg[0] <= 0.0f)
         l->gamma_from = -1.0f;
     if (web->gamma_deg[web->gamma_count - 1] >= 180.0f)
         l->gamma_to = 4.0f;
+    l->down_least = (float)cos(fmin((double)l->gamma_to, M_PI)) - 1e-5f;
     return true;
 }
 

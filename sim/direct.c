@@ -3,18 +3,24 @@
 
 #include "core/color.h"
 
+/* What a lamp would give the points of one packet. */
+typedef struct candidate {
+    vlight_sample lamp;
+    vfloat share; /* luminance of its irradiance, up to a factor; 0 where it is dark */
+} candidate;
+
 struct direct_scratch {
     vray rays[DIRECT_PACKETS];
     vmask asked[DIRECT_PACKETS], blocked[DIRECT_PACKETS];
     vlight_sample lamp[DIRECT_PACKETS];
     int64_t ray_count;
-    vfloat share[]; /* a light */
+    candidate candidates[]; /* a light */
 };
 
 direct_scratch *direct_scratch_new(arena *a, const scene *s, lux_error *err)
 {
     size_t lights = (size_t)s->light_count;
-    return arena_alloc(a, 1, sizeof(direct_scratch) + lights * sizeof(vfloat),
+    return arena_alloc(a, 1, sizeof(direct_scratch) + lights * sizeof(candidate),
                        alignof(direct_scratch), err);
 }
 
@@ -72,21 +78,22 @@ static vint draw(const scene *s, direct_scratch *w, const vsurface *at, vmask ac
 {
     vfloat total = { 0 };
     for (int l = 0; l < s->light_count; l++) {
-        vlight_sample lamp;
+        candidate *c = &w->candidates[l];
         vfloat cosine;
-        vmask lit   = unshadowed(s->lights[l], at, active, &lamp, &cosine);
-        w->share[l] = vkeep(lit, vrgb_luminance(lamp.e) * cosine);
-        total       = total + w->share[l];
+        vmask lit = unshadowed(s->lights[l], at, active, &c->lamp, &cosine);
+        c->share  = vkeep(lit, vrgb_luminance(c->lamp.e) * cosine);
+        total     = total + c->share;
     }
 
     /* The first lamp at which the running sum reaches pick * total: it reaches all of it at last */
     vint drawn   = vsplat_int(-1);
     vfloat share = { 0 }, sum = { 0 }, threshold = pick * total;
     for (int l = 0; l < s->light_count; l++) {
-        sum        = sum + w->share[l];
-        vmask this = active & (drawn < 0) & (w->share[l] > 0.0f) & (sum >= threshold);
-        drawn      = vselect_int(this, vsplat_int(l), drawn);
-        share      = vselect(this, w->share[l], share);
+        const candidate *c = &w->candidates[l];
+        sum                = sum + c->share;
+        vmask this         = active & (drawn < 0) & (c->share > 0.0f) & (sum >= threshold);
+        drawn              = vselect_int(this, vsplat_int(l), drawn);
+        share              = vselect(this, c->share, share);
     }
     *inverse_probability = vkeep(drawn >= 0, total / share);
     return drawn;
@@ -108,12 +115,10 @@ void direct_one(const scene *s, direct_scratch *w, const vsurface *at, const vma
             vmask same = left & (drawn == l);
             left       = left & ~same;
 
-            vlight_sample lamp;
-            vfloat cosine;
-            unshadowed(s->lights[l], &at[k], same, &lamp, &cosine);
-            out[k].wi = vadd(out[k].wi, lamp.wi);
-            out[k].e  = vadd(out[k].e, vscale(lamp.e, inverse_probability));
-            reach     = vselect(same, lamp.dist, reach);
+            const vlight_sample *lamp = &w->candidates[l].lamp;
+            out[k].wi                 = vselect3(same, lamp->wi, out[k].wi);
+            out[k].e = vselect3(same, vscale(lamp->e, inverse_probability), out[k].e);
+            reach    = vselect(same, lamp->dist, reach);
         }
         w->rays[k] = shadow_ray(&at[k], &(vlight_sample){ .wi = out[k].wi, .dist = reach });
     }

@@ -47,8 +47,7 @@ INLINE vfloat largest(vvec3 a) { return vmax(vabs(a.x), vmax(vabs(a.y), vabs(a.z
 /* The lanes of active, which agree in their signs, in the tree's box. */
 INLINE vslabs slabs_make(const bsp *b, vvec3 o, vvec3 d, unsigned signs, vmask active, vfloat far)
 {
-    vfloat box   = vmax(largest(vspread(b->low)), largest(vspread(b->high)));
-    vfloat width = TRACE_WIDTH * vmax(largest(o), box);
+    vfloat width = TRACE_WIDTH * vmax(largest(o), vsplat(b->largest));
     vfloat least = 0x1p-64f * largest(d); /* so that no inverse is infinite */
     vslabs s     = { .axis = { slab_make(o.x, d.x, least, width), slab_make(o.y, d.y, least, width),
                                slab_make(o.z, d.z, least, width) } };
@@ -133,7 +132,7 @@ typedef struct pass {
     query *q;
     const solid *mesh;
     vshear shear;
-    int axis[3];       /* of the shear's x, y, z */
+    size_t axis[3];    /* of the shear's x, y, z */
     vfloat o[5], d[5]; /* x y z x y, for the projection test */
     int32_t instance;
     bool hollow;
@@ -176,11 +175,12 @@ INLINE vmask test_triangle(const pass *p, bool watertight, uint32_t triangle, vm
 {
     if (watertight) {
         const float *c  = p->mesh->corners + (size_t)9 * triangle;
-        vcorners corner = {
-            { vsplat(c[p->axis[0]]), vsplat(c[p->axis[1]]), vsplat(c[p->axis[2]]) },
-            { vsplat(c[p->axis[0] + 3]), vsplat(c[p->axis[1] + 3]), vsplat(c[p->axis[2] + 3]) },
-            { vsplat(c[p->axis[0] + 6]), vsplat(c[p->axis[1] + 6]), vsplat(c[p->axis[2] + 6]) }
-        };
+        const float *x  = c + p->axis[0];
+        const float *y  = c + p->axis[1];
+        const float *z  = c + p->axis[2];
+        vcorners corner = { { vsplat(x[0]), vsplat(y[0]), vsplat(z[0]) },
+                            { vsplat(x[3]), vsplat(y[3]), vsplat(z[3]) },
+                            { vsplat(x[6]), vsplat(y[6]), vsplat(z[6]) } };
         return watertight_test(&p->shear, &corner, inside, p->q->limit, m);
     }
     const projection *t = &p->mesh->projections[triangle];
@@ -230,9 +230,8 @@ static walk_fn *const walks[2][3] = {
 
 static void walk_mesh(pass *p, query_kind kind, vvec3 o, vvec3 d, vmask lanes)
 {
-    const vfloat po[5] = { o.x, o.y, o.z, o.x, o.y }, pd[5] = { d.x, d.y, d.z, d.x, d.y };
-    memcpy(p->o, po, sizeof po);
-    memcpy(p->d, pd, sizeof pd);
+    p->o[0] = p->o[3] = o.x, p->o[1] = p->o[4] = o.y, p->o[2] = o.z;
+    p->d[0] = p->d[3] = d.x, p->d[1] = p->d[4] = d.y, p->d[2] = d.z;
 
     vint code = direction_code(d);
     int left  = vbits(lanes);
@@ -241,13 +240,13 @@ static void walk_mesh(pass *p, query_kind kind, vvec3 o, vvec3 d, vmask lanes)
         vmask group  = lanes & (code == vsplat_int(mine));
         left &= ~vbits(group);
 
-        int z      = mine >> 3;
+        size_t z   = (size_t)mine >> 3;
         p->axis[2] = z, p->axis[0] = (z + 1) % 3, p->axis[1] = (z + 2) % 3;
         for (int k = 0; k < 3; k++)
-            p->shear.o[k] = po[p->axis[k]];
-        p->shear.s[0] = pd[z + 1] / pd[z];
-        p->shear.s[1] = pd[z + 2] / pd[z];
-        p->shear.s[2] = 1.0f / pd[z];
+            p->shear.o[k] = p->o[p->axis[k]];
+        p->shear.s[0] = p->d[z + 1] / p->d[z];
+        p->shear.s[1] = p->d[z + 2] / p->d[z];
+        p->shear.s[2] = 1.0f / p->d[z];
         vslabs s      = slabs_make(&p->mesh->tree, o, d, (unsigned)mine & 7, group, p->q->limit);
         walks[p->q->w->test == TRIANGLE_PROJECTION][kind](p, &s);
     }

@@ -30,9 +30,9 @@ typedef struct vmeet {
     vfloat t, u, v;
 } vmeet;
 
-/* Corners on the ray's axes, and the edges' functions. */
+/* Corners as the ray sees them. */
 typedef struct vedges {
-    vfloat ax, ay, az, bx, by, bz, cx, cy, cz, u, v, w;
+    vfloat ax, ay, az, bx, by, bz, cx, cy, cz;
 } vedges;
 
 /* The lanes of `which` that meet their triangle, with what *m gets for these. */
@@ -43,34 +43,38 @@ vmask watertight_edge(const vedges *e, vfloat sz, vmask which, vmeet *m);
 static inline __attribute__((always_inline)) vmask
 watertight_test(const vshear *r, const vcorners *p, vmask active, vfloat most, vmeet *m)
 {
-    vedges e;
-    e.az = p->a[2] - r->o[2];
-    e.bz = p->b[2] - r->o[2];
-    e.cz = p->c[2] - r->o[2];
-    e.ax = (p->a[0] - r->o[0]) - r->s[0] * e.az;
-    e.ay = (p->a[1] - r->o[1]) - r->s[1] * e.az;
-    e.bx = (p->b[0] - r->o[0]) - r->s[0] * e.bz;
-    e.by = (p->b[1] - r->o[1]) - r->s[1] * e.bz;
-    e.cx = (p->c[0] - r->o[0]) - r->s[0] * e.cz;
-    e.cy = (p->c[1] - r->o[1]) - r->s[1] * e.cz;
+    vfloat az = p->a[2] - r->o[2];
+    vfloat bz = p->b[2] - r->o[2];
+    vfloat cz = p->c[2] - r->o[2];
+    vfloat ax = (p->a[0] - r->o[0]) - r->s[0] * az;
+    vfloat ay = (p->a[1] - r->o[1]) - r->s[1] * az;
+    vfloat bx = (p->b[0] - r->o[0]) - r->s[0] * bz;
+    vfloat by = (p->b[1] - r->o[1]) - r->s[1] * bz;
+    vfloat cx = (p->c[0] - r->o[0]) - r->s[0] * cz;
+    vfloat cy = (p->c[1] - r->o[1]) - r->s[1] * cz;
 
-    e.u = e.cx * e.by - e.cy * e.bx;
-    e.v = e.ax * e.cy - e.ay * e.cx;
-    e.w = e.bx * e.ay - e.by * e.ax;
+    vfloat u = cx * by - cy * bx;
+    vfloat v = ax * cy - ay * cx;
+    vfloat w = bx * ay - by * ax;
 
-    vmask below = (e.u < 0.0f) | (e.v < 0.0f) | (e.w < 0.0f);
-    vmask above = (e.u > 0.0f) | (e.v > 0.0f) | (e.w > 0.0f);
+    /* NaN goes past here, and on to t */
+    vmask below = vmin(vmin(u, v), w) < 0.0f;
+    vmask above = vmax(vmax(u, v), w) > 0.0f;
     vmask in    = active & ~(below & above);
     if (!vany(in))
         return in;
 
-    vfloat det  = e.u + e.v + e.w;
-    m->t        = (e.u * e.az + e.v * e.bz + e.w * e.cz) * r->s[2] / det;
-    m->u        = e.v / det;
-    m->v        = e.w / det;
-    vmask edges = in & ((e.u == 0.0f) | (e.v == 0.0f) | (e.w == 0.0f));
-    if (__builtin_expect(vany(edges), 0))
-        in = (in & ~edges) | watertight_edge(&e, r->s[2], edges, m);
+    vfloat det  = u + v + w;
+    m->t        = (u * az + v * bz + w * cz) * r->s[2] / det;
+    m->u        = v / det;
+    m->v        = w / det;
+    vmask edges = in & ((u == 0.0f) | (v == 0.0f) | (w == 0.0f));
+    if (__builtin_expect(vany(edges), 0)) {
+        vedges e = { ax, ay, az, bx, by, bz, cx, cy, cz };
+        vmeet on = *m;
+        in       = (in & ~edges) | watertight_edge(&e, r->s[2], edges, &on);
+        *m       = on;
+    }
     return in & (m->t > 0.0f) & (m->t <= most);
 }
 

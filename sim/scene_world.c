@@ -60,6 +60,8 @@ bool build_bounds(scene_build *b)
 
 /* ---- meshes and instances -------------------------------------------------------------------- */
 
+enum { MOST_COPIED = 20000 }; /* triangles of all copies of a mesh */
+
 typedef struct baked {
     vec3 *positions;
     uint32_t *corners, *material;
@@ -85,6 +87,14 @@ static int times_placed(const scene_build *b, int i, uint32_t mesh_index)
                 times += b->study->scenes[j].at_count;
     }
     return times;
+}
+
+/* A mesh is baked if it stands once, or is so small that copies cost little: see above. */
+static bool is_baked(const scene_build *b, int i, uint32_t mesh_index)
+{
+    double times = times_placed(b, i, mesh_index);
+    return times == 1.0 ||
+           times * b->files[i]->meshes[mesh_index].triangles.triangle_count <= MOST_COPIED;
 }
 
 /* Whether the file of scene i was met before: its meshes are there already. */
@@ -147,7 +157,7 @@ static bool add_instances(scene_build *b, world_parts *w, int i)
 {
     const gltf *g = b->files[i];
     for (uint32_t m = 0; m < g->mesh_count; m++) {
-        if (times_placed(b, i, m) < 2 || !g->meshes[m].triangles.triangle_count)
+        if (times_placed(b, i, m) < 2 || is_baked(b, i, m))
             continue;
         dvec3 moved;
         if (!keep_mesh(b, &w->meshes[w->mesh_count], &moved, &g->meshes[m].triangles,
@@ -172,18 +182,18 @@ static bool add_instances(scene_build *b, world_parts *w, int i)
     return true;
 }
 
-static bool bake_singles(scene_build *b, baked *to, int i)
+static bool bake_file(scene_build *b, baked *to, int i)
 {
     const study_scene *s = &b->study->scenes[i];
     const gltf *g        = b->files[i];
     for (uint32_t k = 0; k < g->placement_count; k++) {
         const gltf_placement *p = &g->placements[k];
-        if (times_placed(b, i, p->mesh) != 1)
-            continue;
-        transform copy     = scene_copy_place(s, 0);
-        transform to_world = transform_product(&copy, &p->place);
-        if (!bake(b, to, &g->meshes[p->mesh].triangles, &to_world, b->first_material[i]))
-            return false;
+        for (int c = 0; is_baked(b, i, p->mesh) && c < s->at_count; c++) {
+            transform copy     = scene_copy_place(s, c);
+            transform to_world = transform_product(&copy, &p->place);
+            if (!bake(b, to, &g->meshes[p->mesh].triangles, &to_world, b->first_material[i]))
+                return false;
+        }
     }
     return true;
 }
@@ -208,10 +218,11 @@ static bool make_room(scene_build *b, world_parts *w)
             continue;
         meshes += g->mesh_count;
         for (uint32_t m = 0; m < g->mesh_count; m++) {
-            if (times_placed(b, i, m) != 1)
+            if (!is_baked(b, i, m))
                 continue;
-            positions += g->meshes[m].triangles.position_count;
-            triangles += g->meshes[m].triangles.triangle_count;
+            size_t times = (size_t)times_placed(b, i, m);
+            positions += times * g->meshes[m].triangles.position_count;
+            triangles += times * g->meshes[m].triangles.triangle_count;
         }
     }
     if (triangles > UINT32_MAX / 4 || positions > UINT32_MAX / 4)
@@ -238,7 +249,7 @@ world *build_world(scene_build *b, int threads)
     if (b->study->room.given)
         bake_room(&local, &w.common);
     for (int i = 0; i < b->study->scene_count; i++)
-        if (!bake_singles(&local, &w.common, i))
+        if (!bake_file(&local, &w.common, i))
             goto done;
     w.meshes[w.mesh_count++] = (mesh){ w.common.positions, w.common.corners, w.common.material,
                                        w.common.position_count, w.common.triangle_count };

@@ -42,7 +42,7 @@ int model_add_shape(model *m, shape s)
 {
     m->overflow |= s.out_of_memory || m->shape_count == SHAPE_MAX;
     if (m->shape_count == SHAPE_MAX) {
-        shape_clear(&s);
+        solid_clear(&s);
         return 0;
     }
     m->shapes[m->shape_count] = s;
@@ -70,7 +70,7 @@ void model_add_camera(model *m, camera c)
 void model_clear(model *m)
 {
     for (int i = 0; i < m->shape_count; i++)
-        shape_clear(&m->shapes[i]);
+        solid_clear(&m->shapes[i]);
     m->shape_count = m->node_count = m->camera_count = 0;
 }
 

@@ -17,7 +17,7 @@ shape shape_new(const char *name, double detail)
     return s;
 }
 
-void shape_clear(shape *s)
+void solid_clear(shape *s)
 {
     for (int m = 0; m < MATERIAL_COUNT; m++) {
         free(s->patches[m].xyz);

@@ -55,7 +55,7 @@ typedef struct patch {
     uint32_t vertex_count, vertex_room, triangle_count, triangle_room;
 } patch;
 
-/* A thing that is placed as a whole; clear with shape_clear(). What is set here (ink, frame, warp)
+/* A thing that is placed as a whole; clear with solid_clear(). What is set here (ink, frame, warp)
  * holds for the solids that are added after. */
 typedef struct shape {
     char name[32];
@@ -68,7 +68,7 @@ typedef struct shape {
 } shape;
 
 shape shape_new(const char *name, double detail);
-void shape_clear(shape *s);
+void solid_clear(shape *s);
 
 /* Sets the frame: at p, turned by degrees counter-clockwise about z, tipped before that about x. */
 void shape_at(shape *s, point p, double turn_deg, double tip_deg);

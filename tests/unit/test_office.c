@@ -129,7 +129,7 @@ TEST(mirrored_things_are_not_inside_out)
     office_build(&m, 1.0);
     shape all = model_baked(&m);
     assert_sound(&all);
-    shape_clear(&all);
+    solid_clear(&all);
     model_clear(&m);
 }
 

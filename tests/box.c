@@ -27,7 +27,7 @@ const scene *box_scene(arena *a, dvec3 size, const vec3 reflectance[ROOM_MATERIA
 
     /* Without its lid, the ceiling, which comes second of the six faces, is left out */
     uint32_t *shown = arena_array(a, uint32_t, 3 * ROOM_TRIANGLES, NULL);
-    uint32_t *of    = arena_array(a, uint32_t, ROOM_TRIANGLES, NULL), count = 0;
+    uint32_t *of = arena_array(a, uint32_t, ROOM_TRIANGLES, NULL), count = 0;
     for (uint32_t t = 0; t < ROOM_TRIANGLES; t++) {
         if (!lid && made_of[t] == ROOM_CEILING)
             continue;
@@ -35,15 +35,15 @@ const scene *box_scene(arena *a, dvec3 size, const vec3 reflectance[ROOM_MATERIA
             shown[3 * count + c] = corners[3 * t + c];
         of[count++] = made_of[t];
     }
-    mesh box           = { positions, shown, of, ROOM_POSITIONS, count };
-    world_instance in  = { .place = TRANSFORM_IDENTITY };
-    *from              = (study){ .path = "box", .folder = ".", .maintenance = 1.0, .accuracy = (double)NAN };
-    s->study           = from;
-    s->world           = world_new(a, &(world_desc){ &box, 1, &in, 1, TRIANGLE_WATERTIGHT, 1 }, NULL);
-    s->high            = size;
-    s->material_count  = ROOM_MATERIALS;
-    s->materials       = m;
-    s->glows           = glows;
+    mesh box          = { positions, shown, of, ROOM_POSITIONS, count };
+    world_instance in = { .place = TRANSFORM_IDENTITY };
+    *from    = (study){ .path = "box", .folder = ".", .maintenance = 1.0, .accuracy = (double)NAN };
+    s->study = from;
+    s->world = world_new(a, &(world_desc){ &box, 1, &in, 1, TRIANGLE_WATERTIGHT, 1 }, NULL);
+    s->high  = size;
+    s->material_count = ROOM_MATERIALS;
+    s->materials      = m;
+    s->glows          = glows;
     assert_non_null(s->world);
     return s;
 }

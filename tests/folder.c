@@ -58,7 +58,7 @@ const scene *scene_of_text(arena *a, const char *yaml)
 
 void grid_of_scene(arena *a, const scene *s, int grid, const run_options *o, grid_result *out)
 {
-    lux_error err      = { 0 };
+    lux_error err       = { 0 };
     run_options options = *o;
     if (options.deadline == 0.0)
         options.deadline = HUGE_VAL;

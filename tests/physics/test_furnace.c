@@ -30,8 +30,10 @@ static void glowing_box(double rho, double accuracy)
     vec3 all = { r, r, r }, glow = { 1, 1, 1 };
     const vec3 reflectance[] = { all, all, all }, emission[] = { glow, glow, glow };
     const scene *s = box_scene(&a, (dvec3){ 5, 3, 2.5 }, reflectance, emission, true);
-    study_grid g   = { .name = "g", .origin = { 1, 1, 0.8 }, .u = { 3, 0, 0 }, .v = { 0, 1, 0 }, .spacing = 1 };
-    run_options o  = { .accuracy = accuracy, .deadline = HUGE_VAL, .seed = 1, .threads = 1 };
+    study_grid g   = {
+          .name = "g", .origin = { 1, 1, 0.8 }, .u = { 3, 0, 0 }, .v = { 0, 1, 0 }, .spacing = 1
+    };
+    run_options o = { .accuracy = accuracy, .deadline = HUGE_VAL, .seed = 1, .threads = 1 };
     grid_result got;
     assert_true(grid_run(&a, s, &g, &o, &got, NULL));
     double want = M_PI * LUMENS_PER_WATT / (1.0 - (double)r);
@@ -52,7 +54,7 @@ TEST(a_glowing_box_of_99_percent_is_exact) { glowing_box(0.99, 0.02); }
  * lamp off the centre lights some corners more than others; the mean does not care. */
 static double mean_over_walls(double rho, const char *lamp, double accuracy, double *half_width)
 {
-    arena a          = { 0 };
+    arena a = { 0 };
     char text[4096];
     snprintf(text, sizeof text,
              "lux4: 1\nroom: {size: [4, 4, 4], reflectance: %g}\n"

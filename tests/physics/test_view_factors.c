@@ -25,23 +25,25 @@ static double at_right_angles(double l, double w, double h)
     double logs = log((1 + W * W) * (1 + H * H) / (1 + s)) +
                   W * W * log(W * W * (1 + s) / ((1 + W * W) * s)) +
                   H * H * log(H * H * (1 + s) / ((1 + H * H) * s));
-    return (W * atan(1 / W) + H * atan(1 / H) - sqrt(s) * atan(1 / sqrt(s)) + 0.25 * logs) / (M_PI * W);
+    return (W * atan(1 / W) + H * atan(1 / H) - sqrt(s) * atan(1 / sqrt(s)) + 0.25 * logs) /
+           (M_PI * W);
 }
 
 /* The mean over a grid on one wall of a black box, in units of pi L, with its half width. */
-static double mean_factor(const vec3 emission[ROOM_MATERIALS], dvec3 size, study_grid g, double *half)
+static double mean_factor(const vec3 emission[ROOM_MATERIALS], dvec3 size, study_grid g,
+                          double *half)
 {
     arena a             = { 0 };
     const vec3 black[3] = { { 0 } };
     const scene *s      = box_scene(&a, size, black, emission, true);
-    run_options o = { .accuracy = 0.02, .deadline = HUGE_VAL, .seed = 3, .threads = 1 };
+    run_options o       = { .accuracy = 0.02, .deadline = HUGE_VAL, .seed = 3, .threads = 1 };
     grid_result r;
     g.name = "g";
     assert_true(grid_run(&a, s, &g, &o, &r, NULL));
     for (int k = 0; k < r.sensor_count; k++)
         assert_near(r.indirect[k], 0.0, 1e-6); /* black walls pass nothing on */
     double unit = M_PI * LUMENS_PER_WATT, mean = r.average / unit;
-    *half       = r.average_half_width / unit / sqrt((double)r.sensor_count);
+    *half = r.average_half_width / unit / sqrt((double)r.sensor_count);
     arena_clear(&a);
     return mean;
 }
@@ -74,9 +76,13 @@ TEST(a_rectangular_cavity_fills_as_published)
     const vec3 emission[3] = { [ROOM_FLOOR] = { 1, 1, 1 } };
     dvec3 size             = { 3, 2, 1.5 };
     double half, got;
-    study_grid lid  = { .origin = { 0, 0, 1.5 }, .u = { 0, 2, 0 }, .v = { 3, 0, 0 }, .spacing = 0.06 };
-    study_grid wall = { .origin = { 0, 0, 0 }, .u = { 0, 0, 1.5 }, .v = { 3, 0, 0 }, .spacing = 0.06 };
-    got             = mean_factor(emission, size, lid, &half);
+    study_grid lid = {
+        .origin = { 0, 0, 1.5 }, .u = { 0, 2, 0 }, .v = { 3, 0, 0 }, .spacing = 0.06
+    };
+    study_grid wall = {
+        .origin = { 0, 0, 0 }, .u = { 0, 0, 1.5 }, .v = { 3, 0, 0 }, .spacing = 0.06
+    };
+    got = mean_factor(emission, size, lid, &half);
     assert_factor(got, opposed(3, 2, 1.5), half);
     got = mean_factor(emission, size, wall, &half); /* of the wall 3 x 1.5 to the floor 3 x 2 */
     assert_factor(got, at_right_angles(3, 1.5, 2), half);

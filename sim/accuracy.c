@@ -253,7 +253,7 @@ static bool run_rounds(run_state *s, lux_error *err)
     const accuracy_desc *d = s->d;
     s->n                   = (uint32_t)d->first_samples;
     s->samples_predicted   = 16.0 * d->items * SCRAMBLES * s->n;
-    s->reached             = NAN;
+    s->reached             = (double)NAN;
     for (s->active_count = 0; s->active_count < d->items; s->active_count++)
         s->active[s->active_count] = s->active_count;
 

@@ -173,7 +173,7 @@ static bool read_option(const command *c, int count, char *const *words, int *at
 bool command_line_read(arena *a, const command *c, int count, char *const *words, command_line *out,
                        lux_error *err)
 {
-    *out               = (command_line){ .seed = 1, .accuracy = NAN, .seconds = NAN };
+    *out               = (command_line){ .seed = 1, .accuracy = (double)NAN, .seconds = (double)NAN };
     const char **files = arena_array(a, const char *, (size_t)count + 1, err);
     if (!files)
         return false;

@@ -192,8 +192,11 @@ const gltf *gltf_read(arena *a, const char *path, notices *n, lux_error *err)
     r.out         = arena_new(a, gltf, err);
 
     bool good = r.out && read_all(&r, &f, &s, path, err);
-    if (good)
+    if (good) {
+        r.out->texture_count  = r.tallies[TALLY_TEXTURE].count;
+        r.out->flat_triangles = r.tallies[TALLY_FLAT].count;
         tell_tallies(&r);
+    }
     source_close(&s);
     arena_clear(&scratch);
     return good ? r.out : NULL;

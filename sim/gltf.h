@@ -69,12 +69,19 @@ typedef struct gltf {
     gltf_placement *placements;
     gltf_node *nodes; /* those of the scene */
     gltf_camera *cameras;
-    gltf_light *lights; /* KHR_lights_punctual */
+    gltf_light *lights;      /* KHR_lights_punctual */
+    uint64_t texture_count;  /* textures of materials that were taken as their mean */
+    uint64_t flat_triangles; /* left out, without area */
 } gltf;
 
-/* Reads the .gltf or .glb at path, and the files in its folder that it names, into a. NULL, with
- * *err naming the file and the JSON pointer, or the offset, of what is wrong. What is left out
- * or read as something simpler is noticed. */
+/* Reads the .gltf or .glb at path (its first bytes decide), and the files in its folder that it
+ * names, into a. NULL, with *err naming the file and the JSON pointer, or the offset, of what is
+ * wrong. What is left out or read as something simpler is noticed, once a kind.
+ *
+ * Meshes and materials have the file's numbers; a mesh that the scene does not show, or that has
+ * no triangles, has no placement. Places are finite, with a determinant that is finite and, but
+ * for nodes and point lights, not 0. Triangles of a place that mirrors run the other way round.
+ * Positions are finite, each placed one may still be too large for a float. */
 const gltf *gltf_read(arena *a, const char *path, notices *n, lux_error *err);
 
 #ifdef __cplusplus

@@ -10,9 +10,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* More zeros than this, which no byte of the file stands for, are an attack. */
-static const size_t zeros_most = 1u << 24;
-
 enum { BYTE = 5120, UBYTE, SHORT, USHORT, UINT = 5125, FLOAT = 5126 };
 
 static size_t component_size(int component)
@@ -126,10 +123,10 @@ static bool accessor_valid(const reader *r, uint32_t i, lux_error *err)
         return failed(err, ERR_FORMAT,
                       "%s: %s/componentType: %d, wanted 5120 to 5123, 5125 or 5126", r->file->path,
                       pointer, a->component);
-    if (a->view < 0 && a->count > zeros_most)
+    if (a->view < 0 && a->count > ZEROS_MOST)
         return failed(err, ERR_FORMAT,
-                      "%s: %s/count: %zu elements without a bufferView, at most %zu", r->file->path,
-                      pointer, a->count, zeros_most);
+                      "%s: %s/count: %zu elements without a bufferView, at most %d", r->file->path,
+                      pointer, a->count, ZEROS_MOST);
     if (a->view >= 0 &&
         (!index_valid(r, a->view, r->source->view_count, "bufferView", err, "%s/bufferView",
                       pointer) ||

@@ -132,7 +132,7 @@ static bool take_number(walker *w, double *value, bool *whole)
             return syntax_error(w, "an exponent");
     }
     if (!text_number(first, NULL, value)) /* which stops there, too: the text ends with a NUL */
-        *value = INFINITY;
+        *value = HUGE_VAL;
     return true;
 }
 
@@ -422,79 +422,4 @@ bool json_obeys(const json_check *c, lux_error *err)
     if (w.at != w.end)
         return syntax_error(&w, "nothing behind the outermost object");
     return true;
-}
-
-/* ---- strings ---- */
-
-/* Four hexadecimal digits, or -1. */
-static int32_t hex4(const char *p, const char *end)
-{
-    int32_t value = 0;
-    if (end - p < 4)
-        return -1;
-    for (int i = 0; i < 4; i++) {
-        char c    = p[i];
-        int digit = c >= '0' && c <= '9'   ? c - '0'
-                    : c >= 'a' && c <= 'f' ? c - 'a' + 10
-                    : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                           : -1;
-        if (digit < 0)
-            return -1;
-        value = value * 16 + digit;
-    }
-    return value;
-}
-
-static char *put_utf8(char *out, int32_t code)
-{
-    int more                     = code < 0x80 ? 0 : code < 0x800 ? 1 : code < 0x10000 ? 2 : 3;
-    static const uint8_t first[] = { 0, 0xc0, 0xe0, 0xf0 };
-    *out++                       = (char)(first[more] | code >> (6 * more));
-    while (more-- > 0)
-        *out++ = (char)(0x80 | (code >> (6 * more) & 0x3f));
-    return out;
-}
-
-/* The character behind a backslash at *p, which is moved behind it; -1 if it is none. */
-static int32_t escaped(const char **p, const char *end)
-{
-    static const char letters[] = "\"\\/bfnrt", meant[] = "\"\\/\b\f\n\r\t";
-    char letter       = *(*p)++;
-    const char *found = letter ? strchr(letters, letter) : NULL;
-    if (found)
-        return meant[found - letters];
-    if (letter != 'u')
-        return -1;
-    int32_t code = hex4(*p, end);
-    if (code < 0)
-        return -1;
-    *p += 4;
-    if (code < 0xd800 || code > 0xdfff)
-        return code;
-    int32_t low = end - *p >= 6 && (*p)[0] == '\\' && (*p)[1] == 'u' ? hex4(*p + 2, end) : -1;
-    if (code > 0xdbff || low < 0xdc00 || low > 0xdfff)
-        return -1;
-    *p += 6;
-    return 0x10000 + ((code - 0xd800) << 10) + (low - 0xdc00);
-}
-
-char *json_unescape(arena *a, const char *text, size_t length, lux_error *err)
-{
-    char *out = arena_array(a, char, length + 1, err); /* an escape is never shorter than UTF-8 */
-    if (!out)
-        return NULL;
-    char *to        = out;
-    const char *end = text + length;
-    for (const char *p = text; p < end;) {
-        if (*p != '\\') {
-            *to++ = *p++;
-            continue;
-        }
-        p++;
-        int32_t code = p < end ? escaped(&p, end) : -1;
-        if (code <= 0)
-            return failed(err, ERR_FORMAT, "an escape that stands for no character");
-        to = put_utf8(to, code);
-    }
-    return out;
 }

@@ -59,8 +59,4 @@ typedef struct json_check {
  * nests deeper than JSON_DEPTH_MOST, or breaks a rule. */
 bool json_obeys(const json_check *c, lux_error *err);
 
-/* The string that the text between two quotes stands for, in a. NULL, with *err, if it holds a
- * NUL, half of a surrogate pair, or an escape that JSON has not. */
-char *json_unescape(arena *a, const char *text, size_t length, lux_error *err);
-
 #endif

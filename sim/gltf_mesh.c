@@ -73,16 +73,18 @@ static bool count_primitive(mesh_work *w, uint32_t number, lux_error *err)
 
     uint64_t vertices  = s->accessors[p->position].count;
     uint64_t triangles = triangles_of(p->mode, vertex_count(r, p));
-    bool fresh         = w->joined->used_in[p->position] != w->number + 1;
-    if (vertices > UINT32_MAX - 1 || triangles > triangles_most - r->triangles ||
-        (fresh && vertices > 3 * triangles_most - w->position_count))
+    uint64_t fresh     = w->joined->used_in[p->position] != w->number + 1 ? vertices : 0;
+    uint64_t zeros     = s->accessors[p->position].view < 0 ? fresh : 0;
+    if (triangles > triangles_most - r->triangles || fresh > 3 * triangles_most - r->positions ||
+        zeros > ZEROS_MOST - r->zeros)
         return failed(err, ERR_UNSUPPORTED,
-                      "%s: /meshes/%u/primitives/%u: more than %llu triangles "
-                      "in this file",
+                      "%s: /meshes/%u/primitives/%u: with it more than %llu triangles or positions",
                       r->file->path, w->number, number, (unsigned long long)triangles_most);
     r->triangles += triangles;
+    r->positions += fresh;
+    r->zeros += zeros;
     w->triangle_count += (uint32_t)triangles;
-    w->position_count += fresh ? (uint32_t)vertices : 0;
+    w->position_count += (uint32_t)fresh;
     w->joined->used_in[p->position] = w->number + 1;
     return true;
 }

@@ -7,7 +7,6 @@
 #include "sim/gltf_source.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const uint32_t placements_most = 1u << 24;
@@ -317,27 +316,24 @@ static bool add_mesh(node_work *w, uint32_t i, lux_error *err)
     return good;
 }
 
-/* Whether the node's -z still points somewhere. */
-static bool has_direction(const transform *t) { return transform_determinant(t) != 0; }
-
 static bool add_camera(node_work *w, uint32_t i, lux_error *err)
 {
     const source_node *n = &w->r->source->nodes[i];
     if (n->camera < 0)
         return true;
-    if (!has_direction(&w->place[i])) {
+    if (transform_determinant(&w->place[i]) == 0) {
         tally_add(w->r, TALLY_SINGULAR, "/nodes/%u", i);
         return true;
     }
     const source_camera *c = &w->r->source->cameras[n->camera];
     gltf_camera *to        = &w->r->out->cameras[w->r->out->camera_count++];
-    *to = (gltf_camera){ .name        = read_name(w->r, *c->name ? c->name : n->name, err),
-                         .place       = w->place[i],
-                         .perspective = c->perspective,
-                         .yfov        = c->yfov,
-                         .aspect      = c->aspect,
-                         .xmag        = fabs(c->xmag),
-                         .ymag        = fabs(c->ymag) };
+    *to                    = (gltf_camera){ .place       = w->place[i],
+                                            .perspective = c->perspective,
+                                            .yfov        = c->yfov,
+                                            .aspect      = c->aspect,
+                                            .xmag        = fabs(c->xmag),
+                                            .ymag        = fabs(c->ymag) };
+    to->name               = read_name(w->r, *c->name ? c->name : n->name, err);
     return to->name != NULL;
 }
 
@@ -350,18 +346,19 @@ static bool add_light(node_work *w, uint32_t i, lux_error *err)
     gltf_light_kind kind  = !strcmp(l->type, "point")  ? GLTF_POINT
                             : !strcmp(l->type, "spot") ? GLTF_SPOT
                                                        : GLTF_DIRECTIONAL;
-    if (kind != GLTF_POINT && !has_direction(&w->place[i])) {
+    if (kind != GLTF_POINT && transform_determinant(&w->place[i]) == 0) {
         tally_add(w->r, TALLY_SINGULAR, "/nodes/%u", i);
         return true;
     }
+    vec3 color     = { (float)l->color[0], (float)l->color[1], (float)l->color[2] };
     gltf_light *to = &w->r->out->lights[w->r->out->light_count++];
-    *to            = (gltf_light){ .name      = read_name(w->r, *l->name ? l->name : n->name, err),
-                                   .kind      = kind,
+    *to            = (gltf_light){ .kind      = kind,
                                    .place     = w->place[i],
-                                   .color     = { (float)l->color[0], (float)l->color[1], (float)l->color[2] },
+                                   .color     = color,
                                    .intensity = l->intensity,
                                    .inner     = l->inner,
                                    .outer     = l->outer };
+    to->name       = read_name(w->r, *l->name ? l->name : n->name, err);
     return to->name != NULL;
 }
 

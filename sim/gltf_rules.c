@@ -23,6 +23,7 @@ enum {
 };
 
 #define MUST       .required = true
+#define OF_3       .length = 3
 #define AT_LEAST_0 .low = 0, .high = DBL_MAX
 #define UP_TO_1    .low = 0, .high = 1
 #define ABOVE_0    .low = DBL_MIN, .high = DBL_MAX
@@ -104,7 +105,7 @@ static const json_rule texture_ext[] = { OBJECT("EXT_texture_webp", webp), END }
 static const json_rule texture[]     = { INDEX("source"), INDEX("sampler"), NAME,
                                          OBJECT("extensions", texture_ext), END };
 
-static const json_rule roughness[]    = { { "baseColorFactor", JSON_NUMBERS, .length = 4, UP_TO_1 },
+static const json_rule surface[]      = { { "baseColorFactor", JSON_NUMBERS, .length = 4, UP_TO_1 },
                                           OBJECT("baseColorTexture", texture_info),
                                           { "metallicFactor", JSON_NUMBER, UP_TO_1 },
                                           { "roughnessFactor", JSON_NUMBER, UP_TO_1 },
@@ -117,11 +118,11 @@ static const json_rule transmission[] = { { "transmissionFactor", JSON_NUMBER, U
 static const json_rule material_ext[] = { OBJECT("KHR_materials_emissive_strength", strength),
                                           OBJECT("KHR_materials_transmission", transmission), END };
 static const json_rule material[]     = { NAME,
-                                          OBJECT("pbrMetallicRoughness", roughness),
+                                          OBJECT("pbrMetallicRoughness", surface),
                                           OBJECT("normalTexture", texture_info),
                                           OBJECT("occlusionTexture", texture_info),
                                           OBJECT("emissiveTexture", texture_info),
-                                          { "emissiveFactor", JSON_NUMBERS, .length = 3, AT_LEAST_0 },
+                                          { "emissiveFactor", JSON_NUMBERS, OF_3, AT_LEAST_0 },
                                           { "alphaMode", JSON_TEXT, .among = "OPAQUE|MASK|BLEND" },
                                           { "alphaCutoff", JSON_NUMBER, AT_LEAST_0 },
                                           { "doubleSided", JSON_FLAG },
@@ -140,9 +141,9 @@ static const json_rule node[]       = { NAME,
                                         INDEX("skin"),
                                         { "children", JSON_INDICES },
                                         { "matrix", JSON_NUMBERS, .length = 16 },
-                                        { "translation", JSON_NUMBERS, .length = 3 },
+                                        { "translation", JSON_NUMBERS, OF_3 },
                                         { "rotation", JSON_NUMBERS, .length = 4 },
-                                        { "scale", JSON_NUMBERS, .length = 3 },
+                                        { "scale", JSON_NUMBERS, OF_3 },
                                         { "weights", JSON_NUMBERS },
                                         OBJECT("extensions", node_ext),
                                         END };
@@ -171,7 +172,7 @@ static const json_rule spot[]   = { { "innerConeAngle", JSON_NUMBER, .low = 0, .
                                     END };
 static const json_rule light[]  = { NAME,
                                     { "type", JSON_TEXT, MUST, .among = "point|spot|directional" },
-                                    { "color", JSON_NUMBERS, .length = 3, AT_LEAST_0 },
+                                    { "color", JSON_NUMBERS, OF_3, .low = 0, .high = 1e6 },
                                     { "intensity", JSON_NUMBER, AT_LEAST_0 },
                                     { "range", JSON_NUMBER, ABOVE_0 },
                                     OBJECT("spot", spot),

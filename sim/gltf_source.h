@@ -1,6 +1,7 @@
 /* sim/gltf_source.h -- between the files of the glTF reader: what stands in a file, as plain C.
  *
- *     gltf_file.c       the bytes: .gltf or .glb, buffers, data: URIs, no way out of the folder
+ *     gltf_file.c       the bytes: .gltf or .glb, buffers
+ *     gltf_uri.c        data: URIs, files beside it, and no way out of the folder
  *     gltf_rules.c      the JSON against glTF's schema (gltf_json.c)
  *     gltf_tinygltf.cpp the JSON as structures: only this file knows the library
  *     gltf_access.c     accessors: buffer views, strides, sparse and normalised numbers
@@ -182,7 +183,7 @@ typedef struct reader {
     arena *a; /* of the caller: results */
     notices *notices;
     gltf *out;
-    uint64_t triangles; /* so far */
+    uint64_t triangles, positions, zeros; /* so far; zeros: positions without bytes in the file */
     tally tallies[TALLY_KINDS];
 } reader;
 
@@ -192,6 +193,9 @@ void tally_add(reader *r, tally_kind kind, const char *pointer, ...)
 /* Whether the index is there and below count; `pointer` and `what` are for the message. */
 bool index_valid(const reader *r, source_index i, uint32_t count, const char *what, lux_error *err,
                  const char *pointer, ...) __attribute__((format(printf, 6, 7)));
+
+/* Elements that no byte of the file stands for; more are an attack. */
+enum { ZEROS_MOST = 1 << 24 };
 
 /* All buffer views and accessors lie within their buffers: after this the two below cannot
  * reach outside. */

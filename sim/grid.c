@@ -167,7 +167,7 @@ static bool make_threads(grid_run_state *g, arena *a, lux_error *err)
 static void summarise(grid_result *r)
 {
     double sum = 0.0, halves = 0.0;
-    r->minimum = INFINITY;
+    r->minimum = HUGE_VAL;
     r->maximum = 0.0;
     for (int k = 0; k < r->sensor_count; k++) {
         sum += r->illuminance[k];

@@ -143,7 +143,7 @@ static bool add_punctual(scene_build *b, const gltf_light *l, const transform *c
 
     if (l->kind == GLTF_DIRECTIONAL)
         return add(b, light_parallel(b->a, &(parallel_desc){ aim, strength }, b->err), l->name,
-                   along, INFINITY);
+                   along, HUGE_VAL);
     if (l->kind == GLTF_POINT)
         return add(b, light_point(b->a, &(point_desc){ place, strength }, b->err), l->name, at,
                    4.0 * M_PI * i);

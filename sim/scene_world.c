@@ -41,8 +41,8 @@ static double middle(double low, double high)
 
 bool build_bounds(scene_build *b)
 {
-    b->low  = (dvec3){ INFINITY, INFINITY, INFINITY };
-    b->high = (dvec3){ -INFINITY, -INFINITY, -INFINITY };
+    b->low  = (dvec3){ HUGE_VAL, HUGE_VAL, HUGE_VAL };
+    b->high = (dvec3){ -HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
     if (b->study->room.given) {
         grow(b, (dvec3){ 0, 0, 0 });
         grow(b, b->study->room.size);
@@ -133,7 +133,7 @@ static bool keep_mesh(scene_build *b, mesh *to, dvec3 *moved, const mesh *m, uin
     uint32_t *made_of = arena_array(b->a, uint32_t, m->triangle_count, b->err);
     if (!positions || !made_of)
         return false;
-    dvec3 low = { INFINITY, INFINITY, INFINITY }, high = { -INFINITY, -INFINITY, -INFINITY };
+    dvec3 low = { HUGE_VAL, HUGE_VAL, HUGE_VAL }, high = { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
     for (uint32_t v = 0; v < m->position_count; v++) {
         dvec3 p = d3_from(m->positions[v]);
         low     = (dvec3){ fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z) };

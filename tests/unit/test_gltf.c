@@ -159,40 +159,31 @@ TEST(a_mesh_of_nothing_is_not_placed)
     assert_true(noticed(&said, "no triangles"));
 }
 
+/* The first of three elements 8 bytes apart, 2 bytes into the view: shorts or bytes, and 77s
+ * that are no position. */
+static vec3 quantised(int component, const char *normalized)
+{
+    static const int16_t b[13] = { 99, 32767, 0, -32768, 77, 0, 16384, 1, 77, -32767, 2, 3, 77 };
+    const gltf *g =
+        read_mesh(b, sizeof b, "{\"buffer\":0,\"byteLength\":26,\"byteStride\":8}",
+                  text_of(&memory,
+                          "{\"bufferView\":0,\"byteOffset\":2,\"componentType\":%d,\"count\":3,"
+                          "\"type\":\"VEC3\",\"normalized\":%s}",
+                          component, normalized),
+                  "{\"attributes\":{\"POSITION\":0}}", "");
+    assert_non_null(g);
+    assert_int_equal(g->meshes[0].triangles.position_count, 3);
+    return g->meshes[0].triangles.positions[0];
+}
+
 TEST(interleaved_and_quantised_positions_are_read)
 {
-    /* Three elements 8 bytes apart, 2 bytes into the view: shorts, then what is no position */
-    static const int16_t b[13] = { 99, 32767, 0, -32768, 77, 0, 16384, 1, 77, -32767, 2, 3, 77 };
-    static const char view[]   = "{\"buffer\":0,\"byteLength\":26,\"byteStride\":8}";
-    static const char one[]    = "{\"attributes\":{\"POSITION\":0}}";
-    const gltf *g              = read_mesh(b, sizeof b, view,
-                                           "{\"bufferView\":0,\"byteOffset\":2,\"componentType\":5122,"
-                                                        "\"count\":3,\"type\":\"VEC3\",\"normalized\":true}",
-                                           one, "");
-    assert_non_null(g);
-    assert_vec(g->meshes[0].triangles.positions[0], 1, 0, -1); /* -32768 / 32767 is -1 */
-    assert_vec(g->meshes[0].triangles.positions[1], 0, 16384 / 32767.0, 1 / 32767.0);
-
-    g = read_mesh(b, sizeof b, view,
-                  "{\"bufferView\":0,\"byteOffset\":2,\"componentType\":5122,"
-                  "\"count\":3,\"type\":\"VEC3\"}",
-                  one, "");
-    assert_non_null(g);
-    assert_vec(g->meshes[0].triangles.positions[0], 32767, 0, -32768);
-
-    g = read_mesh(b, sizeof b, view,
-                  "{\"bufferView\":0,\"byteOffset\":2,\"componentType\":5121,"
-                  "\"count\":3,\"type\":\"VEC3\",\"normalized\":true}",
-                  one, "");
-    assert_non_null(g);
-    assert_vec(g->meshes[0].triangles.positions[0], 1, 127 / 255.0, 0);
-
-    g = read_mesh(b, sizeof b, view,
-                  "{\"bufferView\":0,\"byteOffset\":2,\"componentType\":5120,"
-                  "\"count\":3,\"type\":\"VEC3\",\"normalized\":true}",
-                  one, "");
-    assert_non_null(g);
-    assert_vec(g->meshes[0].triangles.positions[0], -1 / 127.0, 1, 0);
+    assert_vec(quantised(5122, "true"), 1, 0, -1); /* -32768 / 32767 is no less than -1 */
+    assert_vec(quantised(5122, "false"), 32767, 0, -32768);
+    assert_vec(quantised(5123, "true"), 32767 / 65535.0, 0, 32768 / 65535.0);
+    assert_vec(quantised(5121, "true"), 1, 127 / 255.0, 0); /* the bytes ff 7f 00 */
+    assert_vec(quantised(5120, "true"), -1 / 127.0, 1, 0);
+    assert_vec(quantised(5120, "false"), -1, 127, 0);
 }
 
 TEST(sparse_accessors_replace_elements)

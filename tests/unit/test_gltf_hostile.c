@@ -375,6 +375,25 @@ TEST(more_than_a_file_can_stand_for_is_refused)
         "/accessors/0/count: 90000000 elements without a bufferView");
 }
 
+TEST(a_picture_that_is_not_there_is_named)
+{
+    static const char scene[] =
+        "{" ASSET ",\"images\":[%s],\"textures\":[{\"source\":%d}],\"materials\":"
+        "[{\"emissiveTexture\":{\"index\":%d}}]}";
+    arena a = { 0 };
+    assert_text_refused(text_of(&a, scene, "{\"uri\":\"none.png\"}", 0, 0), "/images/0/uri: ");
+    assert_text_refused(text_of(&a, scene, "{\"uri\":\"../none.png\"}", 0, 0),
+                        "/images/0/uri: \"../none");
+    assert_text_refused(text_of(&a, scene, "{\"uri\":\"data:image/png;base64,AAAA\"}", 0, 0),
+                        "/images/0/uri: ");
+    assert_text_refused(text_of(&a, scene, "{\"bufferView\":3}", 0, 0),
+                        "/images/0/bufferView: bufferView 3 of 0");
+    assert_text_refused(text_of(&a, scene, "{}", 1, 0), "/textures/0/source: image 1 of 1");
+    assert_text_refused(text_of(&a, scene, "{}", 0, 2),
+                        "/materials/0/emissiveTexture/index: texture 2 of 1");
+    arena_clear(&a);
+}
+
 static void assert_uri_refused(const char *uri, const char *sentence)
 {
     arena a = { 0 };
@@ -504,6 +523,7 @@ int main(void)
         HOSTILE(a_deep_hierarchy_is_walked_without_a_stack),
         HOSTILE(numbers_in_buffers_are_checked),
         HOSTILE(more_than_a_file_can_stand_for_is_refused),
+        HOSTILE(a_picture_that_is_not_there_is_named),
         HOSTILE(a_uri_does_not_leave_the_folder),
         HOSTILE(every_file_of_others_is_read_or_refused_with_a_reason),
         HOSTILE(what_the_khronos_validator_calls_an_error_is_refused),

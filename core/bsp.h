@@ -36,7 +36,7 @@ typedef struct bsp {
     const bsp_node *nodes;
     const uint32_t *items;
     vec3 low, high;             /* what it holds lies between */
-    float largest; /* of their coordinates, without sign */
+    float largest;              /* of their coordinates, without sign */
     uint64_t item_count, bytes; /* bytes: of nodes and items */
 } bsp;
 

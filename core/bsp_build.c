@@ -337,8 +337,8 @@ bool bsp_build(arena *a, const bsp_desc *d, bsp *tree, lux_error *err)
         tree->low  = (vec3){ root.c.box.low[0], root.c.box.low[1], root.c.box.low[2] };
         tree->high = (vec3){ root.c.box.high[0], root.c.box.high[1], root.c.box.high[2] };
         for (int k = 0; k < 3; k++)
-            tree->largest = fmaxf(tree->largest,
-                                  fmaxf(fabsf(root.c.box.low[k]), fabsf(root.c.box.high[k])));
+            tree->largest =
+                fmaxf(tree->largest, fmaxf(fabsf(root.c.box.low[k]), fabsf(root.c.box.high[k])));
         done = keep(a, &g, tree, err);
     } else if (b.sides) {
         failed(err, ERR_MEMORY, "out of memory: a tree of %u triangles", d->count);

@@ -72,11 +72,21 @@ static void matrix_sizes(vfloat to[3][4], const vfloat m[3][4])
         to[i / 4][i % 4] = vabs(m[i / 4][i % 4]);
 }
 
-static void place_position(const vplace *p, const vhit *hit, vsurface *out)
+/* Weights of the corners, none below `least`, which is 1/3 at most. */
+static void keep_off_edges(vfloat w[3], vfloat least)
+{
+    const float third = 1.0f / 3.0f;
+    vfloat lowest     = vmin(w[0], vmin(w[1], w[2]));
+    vfloat room       = vmax(third - lowest, vsplat(0x1p-24f));
+    vfloat pull       = vmin(vmax(least - lowest, vsplat(0.0f)) / room, vsplat(1.0f));
+    for (int i = 0; i < 3; i++)
+        w[i] = w[i] + pull * (third - w[i]);
+}
+
+/* `height` is what the triangle's least height may be, in the mesh. */
+static void place_position(const vplace *p, const vhit *hit, vfloat height, vsurface *out)
 {
     vvec3 a = corner(p, 0), b = corner(p, 1), c = corner(p, 2);
-    vfloat weight = 1.0f - hit->u - hit->v;
-    vvec3 at      = vadd(vadd(vscale(a, weight), vscale(b, hit->u)), vscale(c, hit->v));
 
     /* By 3 products, 2 sums and a weight that is off by 2 roundings. By the largest corner, not
      * by their mean: a ray from here is tested against the corners as they are. */
@@ -84,24 +94,27 @@ static void place_position(const vplace *p, const vhit *hit, vsurface *out)
                     vmax(vabs(a.y), vmax(vabs(b.y), vabs(c.y))),
                     vmax(vabs(a.z), vmax(vabs(b.z), vabs(c.z))) };
     vvec3 error = vscale(size, vsplat(ROUNDINGS(6)));
-    if (p->identity) {
-        out->position = at;
-        out->error    = largest(error);
-        return;
-    }
 
     /* To the world: the matrix is rounded, and 3 products and 3 sums. And back, as a ray that
      * starts here is. */
     vfloat there[3][4], back[3][4];
     vfloat one = vsplat(1.0f), zero = vsplat(0.0f);
-    matrix_sizes(there, p->to_world);
-    matrix_sizes(back, p->to_mesh);
-    out->position    = moved(p->to_world, at, one);
-    vvec3 world_size = moved(there, size, one);
-    vvec3 mesh_size  = moved(back, sizes(out->position), one);
-    vvec3 in_mesh    = vadd(error, vscale(mesh_size, vsplat(ROUNDINGS(5))));
-    vvec3 all        = vadd(moved(there, in_mesh, zero), vscale(world_size, vsplat(ROUNDINGS(5))));
-    out->error       = largest(all);
+    if (!p->identity) {
+        matrix_sizes(there, p->to_world);
+        matrix_sizes(back, p->to_mesh);
+        vvec3 world_size = moved(there, size, one);
+        vvec3 mesh_size  = moved(back, world_size, one);
+        error            = vadd(error, vscale(mesh_size, vsplat(ROUNDINGS(10))));
+    }
+
+    /* Not nearer to an edge than that error: else rays that start here might pass the edge of
+     * the next triangle on the outside. */
+    vfloat w[3] = { 1.0f - hit->u - hit->v, hit->u, hit->v };
+    keep_off_edges(w, 2.0f * largest(error) / height);
+    vvec3 at = vadd(vadd(vscale(a, w[0]), vscale(b, w[1])), vscale(c, w[2]));
+
+    out->position = p->identity ? at : moved(p->to_world, at, one);
+    out->error    = largest(p->identity ? error : moved(there, error, zero));
 }
 
 /* Of a triangle so thin that single precision loses its plane. */
@@ -129,23 +142,28 @@ static vvec3 thin_normals(const vplace *p, vmask thin, vvec3 n)
     return (vvec3){ vload(x), vload(y), vload(z) };
 }
 
-static vvec3 place_normal(const vplace *p, vmask active)
+static vvec3 place_normal(const vplace *p, vmask active, vfloat *height)
 {
     /* Edges of about 1 m, so that no product leaves the range of a float */
-    vvec3 a = vsub(corner(p, 1), corner(p, 0));
-    vvec3 b = vsub(corner(p, 2), corner(p, 0));
-    vvec3 n = vcross(vscale(a, 1.0f / largest(a)), vscale(b, 1.0f / largest(b)));
+    vvec3 a        = vsub(corner(p, 1), corner(p, 0));
+    vvec3 b        = vsub(corner(p, 2), corner(p, 0));
+    vfloat a_size  = largest(a);
+    vfloat b_size  = largest(b);
+    vvec3 n        = vcross(vscale(a, 1.0f / a_size), vscale(b, 1.0f / b_size));
+    vfloat squared = vdot(n, n);
+    *height        = 0.25f * vsqrt(squared) * vmin(a_size, b_size);
 
-    const float sine_squared = 1e-6f; /* below, rounding would turn it by more than 0.1 mrad */
-    vmask thin               = active & ~(vdot(n, n) > sine_squared);
+    const float sine_squared = 1e-3f; /* below, rounding would turn it by more than 2e-6 */
+    vmask thin               = active & ~(squared > sine_squared);
     if (vany(thin))
         n = thin_normals(p, thin, n);
     if (!p->identity) {
         const vfloat(*m)[4] = p->to_mesh;
-        n                   = (vvec3){ m[0][0] * n.x + m[1][0] * n.y + m[2][0] * n.z,
-                                       m[0][1] * n.x + m[1][1] * n.y + m[2][1] * n.z,
-                                       m[0][2] * n.x + m[1][2] * n.y + m[2][2] * n.z };
-        n                   = vscale(n, 1.0f / largest(n));
+
+        n = (vvec3){ m[0][0] * n.x + m[1][0] * n.y + m[2][0] * n.z,
+                     m[0][1] * n.x + m[1][1] * n.y + m[2][1] * n.z,
+                     m[0][2] * n.x + m[1][2] * n.y + m[2][2] * n.z };
+        n = vscale(n, 1.0f / largest(n));
     }
     return vnormalize(n);
 }
@@ -154,11 +172,13 @@ void world_surface(const world *w, const vhit *hit, vmask active, vsurface *out)
 {
     active &= hit->instance >= vsplat_int(0);
     vplace p = place_of(w, hit, active);
+    vfloat height;
+    vvec3 normal = place_normal(&p, active, &height);
     vsurface s;
-    place_position(&p, hit, &s);
+    place_position(&p, hit, height, &s);
     out->position = vkeep3(active, s.position);
     out->error    = vkeep(active, s.error);
-    out->normal   = vkeep3(active, place_normal(&p, active));
+    out->normal   = vkeep3(active, normal);
     out->material = p.material;
 }
 
@@ -173,9 +193,9 @@ static inline vfloat next_toward(vfloat a, vfloat way)
     return vselect(way != 0.0f, vas_float(moved), a);
 }
 
-/* How many errors a start is moved off: one is the position's own; the others are for the
- * corners, which the test rounds once they are moved and sheared. */
-static const float errors_off = 4.0f;
+/* How many errors a start is moved off: one is the position's own; as much again for the
+ * rounding of the normal and of the start itself. */
+static const float errors_off = 2.0f;
 
 vvec3 vray_start(const vsurface *from, const vvec3 *direction)
 {

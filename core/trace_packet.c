@@ -247,6 +247,7 @@ static void walk_mesh(pass *p, query_kind kind, vvec3 o, vvec3 d, vmask lanes)
         p->shear.s[0] = p->d[z + 1] / p->d[z];
         p->shear.s[1] = p->d[z + 2] / p->d[z];
         p->shear.s[2] = 1.0f / p->d[z];
+        p->shear.near = shear_near(p->shear.s[2], p->mesh->tree.largest);
         vslabs s      = slabs_make(&p->mesh->tree, o, d, (unsigned)mine & 7, group, p->q->limit);
         walks[p->q->w->test == TRIANGLE_PROJECTION][kind](p, &s);
     }

@@ -42,6 +42,28 @@ vmask watertight_edge(const vedges *e, vfloat sz, vmask which, vmeet *m)
     return in & which;
 }
 
+void watertight_near(const vshear *r, const vcorners *p, vmask which, vmeet *m)
+{
+    float t[LANES];
+    vstore(t, m->t);
+    for (unsigned left = (unsigned)vbits(which); left; left &= left - 1) {
+        int i = __builtin_ctz(left);
+        double a[3], b[3], c[3]; /* corner 0 from the origin; edges from it */
+        for (int k = 0; k < 3; k++) {
+            a[k] = (double)lane(p->a[k], i) - (double)lane(r->o[k], i);
+            b[k] = (double)lane(p->b[k], i) - (double)lane(p->a[k], i);
+            c[k] = (double)lane(p->c[k], i) - (double)lane(p->a[k], i);
+        }
+        double nx = b[1] * c[2] - b[2] * c[1];
+        double ny = b[2] * c[0] - b[0] * c[2];
+        double nz = b[0] * c[1] - b[1] * c[0];
+        double to = nx * a[0] + ny * a[1] + nz * a[2];
+        double on = nx * (double)lane(r->s[0], i) + ny * (double)lane(r->s[1], i) + nz;
+        t[i]      = (float)(to / on * (double)lane(r->s[2], i));
+    }
+    m->t = vload(t);
+}
+
 void projection_make(const float *p, projection *out)
 {
     double a[3], b[3], n[3]; /* edges to corners 1 and 2, and across both */

@@ -7,6 +7,10 @@
  * where it is exactly 0, the ray is thought of as moved by (e, e^2), e -> 0, across its
  * direction. So exactly one of the triangles around an edge or vertex of a surface is met.
  *
+ * Distances come with the errors of the sheared corners, times how thin the triangle is: for
+ * those that are close to 0, where the error would decide whether a ray meets the surface that
+ * it leaves, they are computed anew, in double precision from the plane.
+ *
  * Projection: Wald, "Realtime Ray Tracing and Interactive Global Illumination", 2004, 7.1.
  */
 #ifndef CORE_TRIANGLE_TEST_H
@@ -19,7 +23,11 @@
 typedef struct vshear {
     vfloat o[3]; /* origin */
     vfloat s[3]; /* dx / dz, dy / dz, 1 / dz */
+    vfloat near; /* distances below are computed anew; see shear_near */
 } vshear;
+
+/* A thousandth of the mesh (whose largest coordinate is given), in units of the distance. */
+static inline vfloat shear_near(vfloat s2, float largest) { return 0x1p-10f * largest * vabs(s2); }
 
 /* Corners, each as x, y, z of the turned axes. */
 typedef struct vcorners {
@@ -35,8 +43,10 @@ typedef struct vedges {
     vfloat ax, ay, az, bx, by, bz, cx, cy, cz;
 } vedges;
 
-/* The lanes of `which` that meet their triangle, with what *m gets for these. */
+/* What is rare: rays through edges, and hits near 0. The lanes of `which` that meet their
+ * triangle, with what *m gets for these. */
 vmask watertight_edge(const vedges *e, vfloat sz, vmask which, vmeet *m);
+void watertight_near(const vshear *r, const vcorners *p, vmask which, vmeet *m);
 
 /* The lanes of active that meet their triangle at 0 < t <= most < INFINITY. *m is of use in
  * those alone. */
@@ -69,11 +79,14 @@ watertight_test(const vshear *r, const vcorners *p, vmask active, vfloat most, v
     m->u        = v / det;
     m->v        = w / det;
     vmask edges = in & ((u == 0.0f) | (v == 0.0f) | (w == 0.0f));
-    if (__builtin_expect(vany(edges), 0)) {
-        vedges e = { ax, ay, az, bx, by, bz, cx, cy, cz };
-        vmeet on = *m;
-        in       = (in & ~edges) | watertight_edge(&e, r->s[2], edges, &on);
-        *m       = on;
+    vmask near  = in & (vabs(m->t) < r->near);
+    if (__builtin_expect(vany(edges | near), 0)) {
+        vedges e    = { ax, ay, az, bx, by, bz, cx, cy, cz };
+        vcorners at = *p;
+        vmeet on    = *m;
+        in          = (in & ~edges) | watertight_edge(&e, r->s[2], edges, &on);
+        watertight_near(r, &at, in & (vabs(on.t) < r->near), &on);
+        *m = on;
     }
     return in & (m->t > 0.0f) & (m->t <= most);
 }

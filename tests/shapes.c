@@ -210,12 +210,18 @@ static void brute_mesh(const mesh *m, int instance, const vvec3 *o, const vvec3 
                        vhit *best)
 {
     vfloat x = vabs(d->x), y = vabs(d->y), z = vabs(d->z);
-    vint longest = vselect_int((x >= y) & (x >= z), vsplat_int(0),
-                               vselect_int(y >= z, vsplat_int(1), vsplat_int(2)));
-    vshear s     = { { axis_of(o, longest, 1), axis_of(o, longest, 2), axis_of(o, longest, 0) } };
-    s.s[0]       = axis_of(d, longest, 1) / axis_of(d, longest, 0);
-    s.s[1]       = axis_of(d, longest, 2) / axis_of(d, longest, 0);
-    s.s[2]       = 1.0f / axis_of(d, longest, 0);
+    vint longest  = vselect_int((x >= y) & (x >= z), vsplat_int(0),
+                                vselect_int(y >= z, vsplat_int(1), vsplat_int(2)));
+    vshear s      = { { axis_of(o, longest, 1), axis_of(o, longest, 2), axis_of(o, longest, 0) } };
+    s.s[0]        = axis_of(d, longest, 1) / axis_of(d, longest, 0);
+    s.s[1]        = axis_of(d, longest, 2) / axis_of(d, longest, 0);
+    s.s[2]        = 1.0f / axis_of(d, longest, 0);
+    float largest = 0.0f;
+    for (uint32_t i = 0; i < m->position_count; i++) {
+        vec3 at = m->positions[i];
+        largest = fmaxf(largest, fmaxf(fabsf(at.x), fmaxf(fabsf(at.y), fabsf(at.z))));
+    }
+    s.near = shear_near(s.s[2], largest);
     for (uint32_t i = 0; i < m->triangle_count; i++) {
         vfloat p[3][3];
         for (int k = 0; k < 3; k++) {

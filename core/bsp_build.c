@@ -73,6 +73,8 @@ static int by_number(const void *a, const void *b)
 
 static bool make_leaf(growth *g, const cell *c, uint32_t node)
 {
+    if (c->things == 0) /* as nodes are made */
+        return true;
     if (g->items_used + c->things > UINT32_MAX ||
         !grow((void **)&g->items, &g->items_room, g->items_used + c->things, sizeof *g->items))
         return false;

@@ -156,7 +156,7 @@ check-long: all $(LONG)
 ## demo: the office: its illuminance table, and a picture in data/office/out
 demo: all
 	$(PROG) grid data/office/office.yaml
-	$(PROG) render data/office/office.yaml
+	$(PROG) render data/office/office.yaml --accuracy 25%
 
 ## bench: rays per second of packets, of one ray at a time and of Embree, appended to build/bench.log
 bench: bench-deps build/bench/office-65000.glb build/bench/office-270000.glb

@@ -209,6 +209,14 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+/* No sample found anything, and they are too few to say that there is nothing: the spread of
+ * zeros is 0, and would be taken for certainty. */
+static bool is_in_doubt(const run_state *s, int item)
+{
+    return s->total[item] == 0.0 &&
+           s->r->samples[item] < (uint64_t)SCRAMBLES * (uint64_t)s->d->dark_samples;
+}
+
 /* Judges all items; leaves those that are to be sampled on in s->active. */
 static bool judge(run_state *s, lux_error *err)
 {
@@ -232,7 +240,7 @@ static bool judge(run_state *s, lux_error *err)
         s->samples_predicted += n;
         if (n == 0.0)
             s->r->complete = false;
-        if (n == 0.0 || ratios[i] > s->d->accuracy) {
+        if (n == 0.0 || ratios[i] > s->d->accuracy || is_in_doubt(s, i)) {
             double more = fmin(ratios[i] / s->d->accuracy, 1e3);
             s->r->missed++;
             s->samples_predicted += fmax(n, n * (more * more - 1.0));

@@ -8,8 +8,8 @@
  *     half width = t s / sqrt(SCRAMBLES),    s^2 = sum (m - mean)^2 / (SCRAMBLES - 1)
  *
  * with t a quantile of Student's distribution of SCRAMBLES - 1 degrees of freedom, is half of a
- * confidence interval (Owen, "Monte Carlo theory, methods and examples", 17.2). n doubles from round
- * to round, and an unknown is done when its half width is at most
+ * confidence interval (Owen, "Monte Carlo theory, methods and examples", 17.2). n doubles from
+ * round to round, and an unknown is done when its half width is at most
  *
  *     accuracy * max(|mean|, floor)
  *
@@ -53,6 +53,7 @@ typedef struct accuracy_desc {
     double needed;       /* share of the items that must be done, (0, 1] */
     floor_kind floor;
     int first_samples;  /* a scramble, in the first round; a power of two <= BUNDLE */
+    int dark_samples;   /* a scramble, at least, before samples that were all 0 are believed */
     int threads;        /* >= 1 */
     double deadline;    /* s, on clock_seconds(); INFINITY: none. The first round is finished. */
     progress *progress; /* may be NULL; its stop ends the work */

@@ -17,7 +17,7 @@ typedef struct totals {
 /* ---- as a table
  * ------------------------------------------------------------------------------------ */
 
-static void print_table(const command_context *c, const scene *s, const grid_result *r, bool first)
+static void print_table(const scene *s, const grid_result *r, bool first)
 {
     if (first)
         printf("%-16s %8s %11s %11s %11s %8s %12s %9s\n", "grid", "sensors", "average/lx",
@@ -39,7 +39,9 @@ static void print_table(const command_context *c, const scene *s, const grid_res
     if (!r->enough)
         printf("  accuracy: %d of %d sensors are not within %g %% yet\n", r->missed,
                r->sensor_count, 100.0 * r->asked);
-    (void)c;
+    if (!r->interval_valid)
+        puts("  interval not valid: glowing surfaces are small and met by chance, which samples "
+             "may miss");
 }
 
 /* ---- as JSON
@@ -118,7 +120,7 @@ static int run_all(const command_context *c, const scene *s, totals *t, lux_erro
             if (c->line->json)
                 print_json(&r, i == 0);
             else
-                print_table(c, s, &r, i == 0);
+                print_table(s, &r, i == 0);
             t->printed++;
             if (!write_files(c, s, &r, err))
                 code = exit_code_of(err, false);

@@ -194,6 +194,7 @@ static bool sample_rest(arena *a, grid_run_state *g, grid_result *r, lux_error *
                         .needed        = 1.0,
                         .floor         = FLOOR_MEAN,
                         .first_samples = 16,
+                        .dark_samples  = 256,
                         .threads       = g->o->threads,
                         .deadline      = g->o->deadline,
                         .progress      = g->o->progress,
@@ -241,7 +242,7 @@ bool grid_run(arena *a, const scene *s, const study_grid *grid, const run_option
     out->asked          = !isnan(o->accuracy)          ? o->accuracy
                           : !isnan(s->study->accuracy) ? s->study->accuracy
                                                        : GRID_DEFAULT_PERCENT / 100.0;
-    out->interval_valid = true;
+    out->interval_valid = !s->glows || s->glow_share >= LEAST_GLOW_SHARE;
     out->illuminance    = good ? arena_array(a, double, n, err) : NULL;
     out->direct         = out->illuminance ? arena_array(a, double, n, err) : NULL;
     out->indirect       = out->direct ? arena_array(a, double, n, err) : NULL;
@@ -253,7 +254,8 @@ bool grid_run(arena *a, const scene *s, const study_grid *grid, const run_option
         int per = DIRECT_PACKETS * LANES, chunks = (out->sensor_count + per - 1) / per;
         progress_begin(o->progress, grid->name);
         parallel_for(chunks, o->threads, direct_chunk, &g, o->progress ? o->progress->stop : NULL);
-        bool needs_samples = s->glows || (!o->direct_only && s->light_count > 0);
+        bool reflects      = s->reflects && s->light_count > 0 && !o->direct_only;
+        bool needs_samples = s->glows || reflects;
         if (progress_stopped(o->progress))
             good = failed(err, ERR_INTERRUPTED, "interrupted before grid %s had its first results",
                           grid->name);

@@ -68,13 +68,16 @@ static bool build_cameras(scene_build *b)
     return true;
 }
 
-static bool any_glows(const scene_build *b)
+static bool is_dark(vec3 c) { return c.x == 0.0f && c.y == 0.0f && c.z == 0.0f; }
+
+static void say_what_surfaces_do(const scene_build *b, scene *s)
 {
-    const scene_material *m = b->material_info.items;
-    for (size_t i = 0; i < b->material_info.count; i++)
-        if (m[i].used && !(m[i].emission.x == 0 && m[i].emission.y == 0 && m[i].emission.z == 0))
-            return true;
-    return false;
+    for (int i = 0; i < s->material_count; i++) {
+        const scene_material *m = &s->material_info[i];
+        s->reflects |= m->used && !is_dark(m->reflectance);
+        s->glows |= m->used && !is_dark(m->emission);
+    }
+    s->glow_share = b->area > 0.0 ? b->glowing_area / b->area : 0.0;
 }
 
 const scene *scene_new(arena *a, const study *from, int threads, notices *n, lux_error *err)
@@ -99,6 +102,6 @@ const scene *scene_new(arena *a, const study *from, int threads, notices *n, lux
     s->light_info     = b.light_info.items;
     s->camera_count   = (int)b.cameras.count;
     s->cameras        = b.cameras.items;
-    s->glows          = any_glows(&b);
+    say_what_surfaces_do(&b, s);
     return s;
 }

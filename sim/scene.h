@@ -51,8 +51,14 @@ typedef struct scene {
     int camera_count;
     const scene_camera *cameras;
 
-    bool glows; /* some surface emits light */
+    bool reflects;     /* some surface does */
+    bool glows;        /* some surface emits light */
+    double glow_share; /* those that do, of the area of all */
 } scene;
+
+/* Glowing surfaces are met by chance, not sought: where they are less of all surfaces than this,
+ * samples may miss them all, and no interval tells. */
+#define LEAST_GLOW_SHARE 0.01
 
 /* Builds the scene of a study into a, on that many threads. NULL, with *err naming file and
  * place. What is left out or looks like a mistake (a luminaire outside the room) is noticed. */

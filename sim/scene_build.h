@@ -21,16 +21,21 @@ typedef struct scene_build {
     lux_error *err;
     const gltf **files;             /* of study->scenes */
     const uint32_t *first_material; /* of each file, as the scene counts */
+    uint32_t *const *times; /* of each file: how often each of its meshes stands in the scene */
     list materials, material_info, lights, light_info, cameras;
-    dvec3 centre, low, high; /* m, of the surfaces, in the user's frame */
+    dvec3 centre, low, high;   /* m, of the surfaces, in the user's frame */
+    double area, glowing_area; /* m^2 */
 } scene_build;
 
 /* The places of a study's scene entry: its k-th copy. */
 transform scene_copy_place(const study_scene *s, int k);
 
+/* The first scene entry that uses the same file as entry i. */
+int scene_first_use(const scene_build *b, int i);
+
 /* Each fills in its part of the build; false with the error where it fails. */
 bool build_materials(scene_build *b); /* scene_materials.c */
-bool build_bounds(scene_build *b);    /* scene_world.c */
+bool build_bounds(scene_build *b);    /* scene_bounds.c: times, box, centre, areas */
 world *build_world(scene_build *b, int threads);
 bool build_lights(scene_build *b); /* scene_lights.c */
 

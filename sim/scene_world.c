@@ -9,55 +9,6 @@
 
 #include <string.h>
 
-/* ---- where everything is -------------------------------------------------------------------- */
-
-static void grow(scene_build *b, dvec3 p)
-{
-    b->low  = (dvec3){ fmin(b->low.x, p.x), fmin(b->low.y, p.y), fmin(b->low.z, p.z) };
-    b->high = (dvec3){ fmax(b->high.x, p.x), fmax(b->high.y, p.y), fmax(b->high.z, p.z) };
-}
-
-static void grow_by_file(scene_build *b, int i)
-{
-    const study_scene *s = &b->study->scenes[i];
-    const gltf *g        = b->files[i];
-    for (uint32_t k = 0; k < g->placement_count; k++) {
-        const gltf_placement *p = &g->placements[k];
-        const mesh *m           = &g->meshes[p->mesh].triangles;
-        for (int c = 0; c < s->at_count; c++) {
-            transform copy = scene_copy_place(s, c);
-            transform to   = transform_product(&copy, &p->place);
-            for (uint32_t v = 0; v < m->position_count; v++)
-                grow(b, transform_point(&to, d3_from(m->positions[v])));
-        }
-    }
-}
-
-/* Rounded to whole metres, so that round coordinates stay round. */
-static double middle(double low, double high)
-{
-    return low <= high ? round(0.5 * (low + high)) : 0;
-}
-
-bool build_bounds(scene_build *b)
-{
-    b->low  = (dvec3){ HUGE_VAL, HUGE_VAL, HUGE_VAL };
-    b->high = (dvec3){ -HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
-    if (b->study->room.given) {
-        grow(b, (dvec3){ 0, 0, 0 });
-        grow(b, b->study->room.size);
-    }
-    for (int i = 0; i < b->study->scene_count; i++)
-        grow_by_file(b, i);
-    b->centre = (dvec3){ middle(b->low.x, b->high.x), middle(b->low.y, b->high.y),
-                         middle(b->low.z, b->high.z) };
-    if (b->low.x <= b->high.x &&
-        !(d3_finite(b->low) && d3_finite(b->high) && d3_length(d3_sub(b->high, b->low)) < 1e9))
-        return failed(b->err, ERR_ARGUMENT, "%s: the scene is larger than a million kilometres",
-                      b->study->path);
-    return true;
-}
-
 /* ---- meshes and instances -------------------------------------------------------------------- */
 
 enum { MOST_COPIED = 20000 }; /* triangles of all copies of a mesh */
@@ -75,35 +26,12 @@ typedef struct world_parts {
     list instances;
 } world_parts;
 
-static int times_placed(const scene_build *b, int i, uint32_t mesh_index)
-{
-    int times = 0;
-    for (int j = 0; j < b->study->scene_count; j++) {
-        const gltf *g = b->files[j];
-        if (g != b->files[i])
-            continue;
-        for (uint32_t k = 0; k < g->placement_count; k++)
-            if (g->placements[k].mesh == mesh_index)
-                times += b->study->scenes[j].at_count;
-    }
-    return times;
-}
-
 /* A mesh is baked if it stands once, or is so small that copies cost little: see above. */
 static bool is_baked(const scene_build *b, int i, uint32_t mesh_index)
 {
-    double times = times_placed(b, i, mesh_index);
+    double times = b->times[i][mesh_index];
     return times == 1.0 ||
            times * b->files[i]->meshes[mesh_index].triangles.triangle_count <= MOST_COPIED;
-}
-
-/* Whether the file of scene i was met before: its meshes are there already. */
-static int first_use(const scene_build *b, int i)
-{
-    int j = 0;
-    while (b->files[j] != b->files[i])
-        j++;
-    return j;
 }
 
 static bool bake(scene_build *b, baked *to, const mesh *m, const transform *place, uint32_t first)
@@ -157,7 +85,7 @@ static bool add_instances(scene_build *b, world_parts *w, int i)
 {
     const gltf *g = b->files[i];
     for (uint32_t m = 0; m < g->mesh_count; m++) {
-        if (times_placed(b, i, m) < 2 || is_baked(b, i, m))
+        if (b->times[i][m] == 0 || is_baked(b, i, m))
             continue;
         dvec3 moved;
         if (!keep_mesh(b, &w->meshes[w->mesh_count], &moved, &g->meshes[m].triangles,
@@ -214,13 +142,13 @@ static bool make_room(scene_build *b, world_parts *w)
     size_t positions = ROOM_POSITIONS, triangles = ROOM_TRIANGLES, meshes = 1;
     for (int i = 0; i < b->study->scene_count; i++) {
         const gltf *g = b->files[i];
-        if (first_use(b, i) != i)
+        if (scene_first_use(b, i) != i)
             continue;
         meshes += g->mesh_count;
         for (uint32_t m = 0; m < g->mesh_count; m++) {
             if (!is_baked(b, i, m))
                 continue;
-            size_t times = (size_t)times_placed(b, i, m);
+            size_t times = b->times[i][m];
             positions += times * g->meshes[m].triangles.position_count;
             triangles += times * g->meshes[m].triangles.triangle_count;
         }
@@ -258,7 +186,7 @@ world *build_world(scene_build *b, int threads)
         goto done;
     *in = (world_instance){ .place = TRANSFORM_IDENTITY };
     for (int i = 0; i < b->study->scene_count; i++)
-        if (first_use(b, i) == i && !add_instances(&local, &w, i))
+        if (scene_first_use(b, i) == i && !add_instances(&local, &w, i))
             goto done;
 
     made = world_new(b->a,

@@ -44,6 +44,8 @@ const scene *box_scene(arena *a, dvec3 size, const vec3 reflectance[ROOM_MATERIA
     s->material_count = ROOM_MATERIALS;
     s->materials      = m;
     s->glows          = glows;
+    s->glow_share     = glows;
+    s->reflects       = true;
     assert_non_null(s->world);
     return s;
 }

@@ -86,6 +86,7 @@ $B/liblux4.a: $(SRC:%=$B/%.o) $B/links
 
 $(PROG): $B/sim/main.c.o
 $(TESTS) $(LONG) $(BENCH): $B/%: $B/%.c.o $(AIDS:%=$B/%.o)
+$(filter $B/tests/cli/%,$(TESTS)): | $(PROG) $(PLUG) # which they run
 $(TESTS) $(LONG) $(BENCH): private LDFLAGS += -Wl,--wrap=aligned_alloc
 $(TESTS) $(LONG) $(BENCH): private LDLIBS += $(TEST_LIBS)
 $B/tests/bench/bench_trace: private LDLIBS += -lembree3

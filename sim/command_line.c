@@ -81,11 +81,12 @@ static bool whole(const char *option_name, const char *text, double low, double 
 
 static bool percent(const char *text, double *out, lux_error *err)
 {
+    static const double least = 1e-9; /* the same as a study's */
     const char *end;
     bool good = text_number(text, &end, out);
     while (good && *end == ' ')
         end++;
-    if (!good || strcmp(end, "%") != 0 || !(*out > 0.0 && *out <= 100.0))
+    if (!good || strcmp(end, "%") != 0 || !(*out >= least && *out <= 100.0))
         return failed(err, ERR_ARGUMENT, "--accuracy %s: expected a percentage, for instance 2%%",
                       text);
     *out /= 100.0;

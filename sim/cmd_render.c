@@ -36,8 +36,13 @@ static void print_view(const command_context *c, const view_result *r, const cha
     printf("  written: %s, %s\n", exr, png);
 }
 
-static int run_view(const command_context *c, const scene *s, const study_view *v, bool first,
-                    bool *enough, lux_error *err)
+typedef struct totals {
+    int printed; /* views */
+    bool enough;
+} totals;
+
+static int run_view(const command_context *c, const scene *s, const study_view *v, totals *all,
+                    lux_error *err)
 {
     arena of_view = { 0 };
     view_result r;
@@ -54,8 +59,8 @@ static int run_view(const command_context *c, const scene *s, const study_view *
             !view_write_png(png, &r, c->line->exposure_ev, err))
             code = exit_code_of(err, false);
         else
-            print_view(c, &r, exr, png, first);
-        *enough &= r.enough;
+            print_view(c, &r, exr, png, all->printed++ == 0);
+        all->enough &= r.enough;
         if (code == EXIT_DONE && r.interrupted) {
             failed(err, ERR_INTERRUPTED, "interrupted: view %s is less accurate than asked for",
                    v->name);
@@ -83,13 +88,13 @@ static int render_command(const command_context *c, lux_error *err)
             return exit_code_of(err, true);
     }
 
-    bool enough = true;
-    int code    = EXIT_DONE;
+    totals all = { .enough = true };
+    int code   = EXIT_DONE;
     for (int i = 0; i < s->study->view_count && code == EXIT_DONE; i++)
-        code = run_view(c, s, &s->study->views[i], i == 0, &enough, err);
-    if (c->line->json && code != EXIT_INPUT)
-        fputs("]}\n", stdout);
-    if (code == EXIT_DONE && !enough) {
+        code = run_view(c, s, &s->study->views[i], &all, err);
+    if (c->line->json)
+        fputs(all.printed ? "]}\n" : "{\"views\":[]}\n", stdout);
+    if (code == EXIT_DONE && !all.enough) {
         failed(err, ERR_NONE, "the accuracy asked for was not reached in the time given");
         code = EXIT_INACCURATE;
     }

@@ -141,10 +141,11 @@ build/pkg.mk: Makefile
 
 # ---- what to do with it ---------------------------------------------------------------------
 
-## check: every test at widths 4 and 1, and that no layer includes one above it
+## check: every test at widths 4 and 1, files at 1, 4 and 8 alike, no layer that includes one above it
 check: layers
 	$Q$(MAKE) -j$$(nproc) tests WIDTH=4
 	$Q$(MAKE) -j$$(nproc) tests WIDTH=1
+	$Qif grep -qw avx2 /proc/cpuinfo 2> /dev/null; then $(MAKE) -j$$(nproc) all WIDTH=8; fi
 	$Qtests/run build/release-4 build/release-1
 
 ## tests: build the test programs of this width (check builds and runs them)

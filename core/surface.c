@@ -58,7 +58,6 @@ static inline vvec3 moved(const vfloat m[3][4], vvec3 a, vfloat one)
 {
     return (vvec3){ row(m[0], a, one), row(m[1], a, one), row(m[2], a, one) };
 }
-static inline vvec3 sizes(vvec3 a) { return (vvec3){ vabs(a.x), vabs(a.y), vabs(a.z) }; }
 static inline vfloat largest(vvec3 a) { return vmax(vabs(a.x), vmax(vabs(a.y), vabs(a.z))); }
 static inline vvec3 corner(const vplace *p, int i)
 {

@@ -42,10 +42,11 @@ vmask watertight_edge(const vedges *e, vfloat sz, vmask which, vmeet *m)
     return in & which;
 }
 
-void watertight_near(const vshear *r, const vcorners *p, vmask which, vmeet *m)
+/* In double precision: the distances that single precision leaves open. */
+static vfloat near_exact(const vshear *r, const vcorners *p, vmask which, vfloat single)
 {
     float t[LANES];
-    vstore(t, m->t);
+    vstore(t, single);
     for (unsigned left = (unsigned)vbits(which); left; left &= left - 1) {
         int i = __builtin_ctz(left);
         double a[3], b[3], c[3]; /* corner 0 from the origin; edges from it */
@@ -61,7 +62,30 @@ void watertight_near(const vshear *r, const vcorners *p, vmask which, vmeet *m)
         double on = nx * (double)lane(r->s[0], i) + ny * (double)lane(r->s[1], i) + nz;
         t[i]      = (float)(to / on * (double)lane(r->s[2], i));
     }
-    m->t = vload(t);
+    return vload(t);
+}
+
+/* Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
+ * Predicates", 1997, table 9: how far the product of three differences may be off. */
+static const float orient_error = 8 * 0x1p-24f;
+
+void watertight_near(const vshear *r, const vcorners *p, vmask which, vmeet *m)
+{
+    vvec3 a = { p->a[0] - r->o[0], p->a[1] - r->o[1], p->a[2] - r->o[2] };
+    vvec3 b = { p->b[0] - p->a[0], p->b[1] - p->a[1], p->b[2] - p->a[2] };
+    vvec3 c = { p->c[0] - p->a[0], p->c[1] - p->a[1], p->c[2] - p->a[2] };
+    vvec3 n = { b.y * c.z - b.z * c.y, b.z * c.x - b.x * c.z, b.x * c.y - b.y * c.x };
+
+    vvec3 size   = { vabs(b.y * c.z) + vabs(b.z * c.y), vabs(b.z * c.x) + vabs(b.x * c.z),
+                     vabs(b.x * c.y) + vabs(b.y * c.x) };
+    vfloat error = orient_error * (size.x * vabs(a.x) + size.y * vabs(a.y) + size.z * vabs(a.z));
+    vfloat to    = vdot(n, a);
+    vfloat on    = n.x * r->s[0] + n.y * r->s[1] + n.z;
+    vfloat t     = to / on * r->s[2];
+    vmask open   = which & ~(vabs(to) > error);
+    if (vany(open))
+        t = near_exact(r, p, open, t);
+    m->t = vselect(which, t, m->t);
 }
 
 void projection_make(const float *p, projection *out)

@@ -80,12 +80,22 @@ watertight_test(const vshear *r, const vcorners *p, vmask active, vfloat most, v
     m->v        = w / det;
     vmask edges = in & ((u == 0.0f) | (v == 0.0f) | (w == 0.0f));
     vmask near  = in & (vabs(m->t) < r->near);
+    if (__builtin_expect(vany(near), 0)) {
+        /* How far t may be off. Of 2^-24: x by 2 x + 4 z, y likewise; so u, v, w by 12 x y +
+         * 8 z (x + y); each counts with a z, and 5 roundings of all come on top. */
+        vfloat x   = vmax(vabs(ax), vmax(vabs(bx), vabs(cx)));
+        vfloat y   = vmax(vabs(ay), vmax(vabs(by), vabs(cy)));
+        vfloat z   = vmax(vabs(az), vmax(vabs(bz), vabs(cz)));
+        vfloat off = 36.0f * x * y + 24.0f * z * (x + y) + 5.0f * vabs(det);
+        off        = 0x1p-24f * z * off * vabs(r->s[2]);
+        near &= ~(vabs(m->t * det) > off);
+    }
     if (__builtin_expect(vany(edges | near), 0)) {
         vedges e    = { ax, ay, az, bx, by, bz, cx, cy, cz };
         vcorners at = *p;
         vmeet on    = *m;
         in          = (in & ~edges) | watertight_edge(&e, r->s[2], edges, &on);
-        watertight_near(r, &at, in & (vabs(on.t) < r->near), &on);
+        watertight_near(r, &at, near | (edges & in & (vabs(on.t) < r->near)), &on);
         *m = on;
     }
     return in & (m->t > 0.0f) & (m->t <= most);

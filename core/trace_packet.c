@@ -170,26 +170,46 @@ INLINE void accept(query_kind kind, pass *p, uint32_t triangle, vmask in, const 
     }
 }
 
-INLINE vmask test_triangle(const pass *p, bool watertight, uint32_t triangle, vmask inside,
-                           vmeet *m)
+INLINE vcorners corners_of(const pass *p, uint32_t triangle)
 {
-    if (watertight) {
-        const float *c  = p->mesh->corners + (size_t)9 * triangle;
-        const float *x  = c + p->axis[0];
-        const float *y  = c + p->axis[1];
-        const float *z  = c + p->axis[2];
-        vcorners corner = { { vsplat(x[0]), vsplat(y[0]), vsplat(z[0]) },
-                            { vsplat(x[3]), vsplat(y[3]), vsplat(z[3]) },
-                            { vsplat(x[6]), vsplat(y[6]), vsplat(z[6]) } };
-        return watertight_test(&p->shear, &corner, inside, p->q->limit, m);
+    const float *c = p->mesh->corners + (size_t)9 * triangle;
+    const float *x = c + p->axis[0];
+    const float *y = c + p->axis[1];
+    const float *z = c + p->axis[2];
+    return (vcorners){ { vsplat(x[0]), vsplat(y[0]), vsplat(z[0]) },
+                       { vsplat(x[3]), vsplat(y[3]), vsplat(z[3]) },
+                       { vsplat(x[6]), vsplat(y[6]), vsplat(z[6]) } };
+}
+
+static __attribute__((noinline)) vmask test_rare(const pass *p, uint32_t triangle, vmask inside,
+                                                 vmeet *m)
+{
+    vcorners c = corners_of(p, triangle);
+    return watertight_rare(&p->shear, &c, inside, m);
+}
+
+INLINE vmask test_watertight(const pass *p, uint32_t triangle, vmask inside, vmeet *m)
+{
+    vmask rare;
+    vcorners c = corners_of(p, triangle);
+    vmask in   = watertight_line(&p->shear, &c, inside, m, &rare);
+    if (__builtin_expect(vany(rare), 0)) {
+        vmeet anew; /* *m stays in registers */
+        in = test_rare(p, triangle, inside, &anew);
+        *m = anew;
     }
+    return in;
+}
+
+INLINE vmask test_projection(const pass *p, uint32_t triangle, vmask inside, vmeet *m)
+{
     const projection *t = &p->mesh->projections[triangle];
     vprojection s       = { vsplat(t->n_u), vsplat(t->n_v), vsplat(t->n_d),
                             vsplat(t->b_u), vsplat(t->b_v), vsplat(t->b_d),
                             vsplat(t->c_u), vsplat(t->c_v), vsplat(t->c_d) };
     vaxes r             = { { p->o[t->k], p->o[t->k + 1], p->o[t->k + 2] },
                             { p->d[t->k], p->d[t->k + 1], p->d[t->k + 2] } };
-    return projection_test(&r, &s, inside, p->q->limit, m);
+    return projection_line(&r, &s, inside, m);
 }
 
 INLINE void triangle_leaf(query_kind kind, bool watertight, pass *p, const uint32_t *items,
@@ -197,7 +217,11 @@ INLINE void triangle_leaf(query_kind kind, bool watertight, pass *p, const uint3
 {
     for (uint32_t i = 0; i < count; i++) {
         vmeet m;
-        vmask in = test_triangle(p, watertight, items[i], inside, &m);
+        vmask in = watertight ? test_watertight(p, items[i], inside, &m)
+                              : test_projection(p, items[i], inside, &m);
+        if (!vany(in))
+            continue;
+        in = meet_within(&m, in, p->q->limit);
         if (vany(in))
             accept(kind, p, items[i], in, &m);
     }

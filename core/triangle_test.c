@@ -9,7 +9,7 @@ static int edge_sign(double cross, double px, double py, double qx, double qy)
     return (by > 0.0) - (by < 0.0);
 }
 
-vmask watertight_edge(const vedges *e, vfloat sz, vmask which, vmeet *m)
+static vmask through_edges(const vedges *e, vfloat sz, vmask which, vmeet *m)
 {
     float t[LANES], u[LANES], v[LANES];
     vmask in = ~ALL_LANES;
@@ -69,7 +69,7 @@ static vfloat near_exact(const vshear *r, const vcorners *p, vmask which, vfloat
  * Predicates", 1997, table 9: how far the product of three differences may be off. */
 static const float orient_error = 8 * 0x1p-24f;
 
-void watertight_near(const vshear *r, const vcorners *p, vmask which, vmeet *m)
+static void near_plane(const vshear *r, const vcorners *p, vmask which, vmeet *m)
 {
     vvec3 a = { p->a[0] - r->o[0], p->a[1] - r->o[1], p->a[2] - r->o[2] };
     vvec3 b = { p->b[0] - p->a[0], p->b[1] - p->a[1], p->b[2] - p->a[2] };
@@ -86,6 +86,32 @@ void watertight_near(const vshear *r, const vcorners *p, vmask which, vmeet *m)
     if (vany(open))
         t = near_exact(r, p, open, t);
     m->t = vselect(which, t, m->t);
+}
+
+/* Whether t may be off by as much as it is. Of 2^-24: x by 2 x + 4 z, y likewise; so u, v, w by
+ * 12 x y + 8 z (x + y); each counts with a z, and 5 roundings of all come on top. */
+static vmask uncertain(const vshear *r, const vedges *e, const vmeet *m)
+{
+    vfloat det = vabs(e->u + e->v + e->w);
+    vfloat x   = vmax(vabs(e->ax), vmax(vabs(e->bx), vabs(e->cx)));
+    vfloat y   = vmax(vabs(e->ay), vmax(vabs(e->by), vabs(e->cy)));
+    vfloat z   = vmax(vabs(e->az), vmax(vabs(e->bz), vabs(e->cz)));
+    vfloat off = 36.0f * x * y + 24.0f * z * (x + y) + 5.0f * det;
+    return ~(vabs(m->t) * det > 0x1p-24f * z * off * vabs(r->s[2]));
+}
+
+vmask watertight_rare(const vshear *r, const vcorners *p, vmask lanes, vmeet *m)
+{
+    vmask rare;
+    vedges e    = vedges_of(r, p);
+    vmask in    = watertight_line(r, p, lanes, m, &rare);
+    vmask edges = in & ((e.u == 0.0f) | (e.v == 0.0f) | (e.w == 0.0f));
+    if (vany(edges))
+        in = (in & ~edges) | through_edges(&e, r->s[2], edges, m);
+    vmask near = in & (vabs(m->t) < r->near) & (edges | uncertain(r, &e, m));
+    if (vany(near))
+        near_plane(r, p, near, m);
+    return in;
 }
 
 void projection_make(const float *p, projection *out)

@@ -38,66 +38,61 @@ typedef struct vmeet {
     vfloat t, u, v;
 } vmeet;
 
-/* Corners as the ray sees them. */
+/* Corners as the ray sees them, and the edges' functions. */
 typedef struct vedges {
-    vfloat ax, ay, az, bx, by, bz, cx, cy, cz;
+    vfloat ax, ay, az, bx, by, bz, cx, cy, cz, u, v, w;
 } vedges;
 
-/* What is rare: rays through edges, and hits near 0. The lanes of `which` that meet their
- * triangle, with what *m gets for these. */
-vmask watertight_edge(const vedges *e, vfloat sz, vmask which, vmeet *m);
-void watertight_near(const vshear *r, const vcorners *p, vmask which, vmeet *m);
-
-/* The lanes of active that meet their triangle at 0 < t <= most < INFINITY. *m is of use in
- * those alone. */
-static inline __attribute__((always_inline)) vmask
-watertight_test(const vshear *r, const vcorners *p, vmask active, vfloat most, vmeet *m)
+static inline __attribute__((always_inline)) vedges vedges_of(const vshear *r, const vcorners *p)
 {
-    vfloat az = p->a[2] - r->o[2];
-    vfloat bz = p->b[2] - r->o[2];
-    vfloat cz = p->c[2] - r->o[2];
-    vfloat ax = (p->a[0] - r->o[0]) - r->s[0] * az;
-    vfloat ay = (p->a[1] - r->o[1]) - r->s[1] * az;
-    vfloat bx = (p->b[0] - r->o[0]) - r->s[0] * bz;
-    vfloat by = (p->b[1] - r->o[1]) - r->s[1] * bz;
-    vfloat cx = (p->c[0] - r->o[0]) - r->s[0] * cz;
-    vfloat cy = (p->c[1] - r->o[1]) - r->s[1] * cz;
+    vedges e;
+    e.az = p->a[2] - r->o[2];
+    e.bz = p->b[2] - r->o[2];
+    e.cz = p->c[2] - r->o[2];
+    e.ax = (p->a[0] - r->o[0]) - r->s[0] * e.az;
+    e.ay = (p->a[1] - r->o[1]) - r->s[1] * e.az;
+    e.bx = (p->b[0] - r->o[0]) - r->s[0] * e.bz;
+    e.by = (p->b[1] - r->o[1]) - r->s[1] * e.bz;
+    e.cx = (p->c[0] - r->o[0]) - r->s[0] * e.cz;
+    e.cy = (p->c[1] - r->o[1]) - r->s[1] * e.cz;
 
-    vfloat u = cx * by - cy * bx;
-    vfloat v = ax * cy - ay * cx;
-    vfloat w = bx * ay - by * ax;
+    e.u = e.cx * e.by - e.cy * e.bx;
+    e.v = e.ax * e.cy - e.ay * e.cx;
+    e.w = e.bx * e.ay - e.by * e.ax;
+    return e;
+}
+
+/* The lanes of active in whose triangle the ray's line lies; *m is of use in those alone. What
+ * is rare, lines through edges and distances near 0, is in *rare: for these lanes
+ * watertight_rare() has the last word. */
+static inline __attribute__((always_inline)) vmask
+watertight_line(const vshear *r, const vcorners *p, vmask active, vmeet *m, vmask *rare)
+{
+    vedges e = vedges_of(r, p);
 
     /* NaN goes past here, and on to t */
-    vmask below = vmin(vmin(u, v), w) < 0.0f;
-    vmask above = vmax(vmax(u, v), w) > 0.0f;
+    vmask below = vmin(vmin(e.u, e.v), e.w) < 0.0f;
+    vmask above = vmax(vmax(e.u, e.v), e.w) > 0.0f;
     vmask in    = active & ~(below & above);
+    *rare       = ~ALL_LANES;
     if (!vany(in))
         return in;
 
-    vfloat det  = u + v + w;
-    m->t        = (u * az + v * bz + w * cz) * r->s[2] / det;
-    m->u        = v / det;
-    m->v        = w / det;
-    vmask edges = in & ((u == 0.0f) | (v == 0.0f) | (w == 0.0f));
-    vmask near  = in & (vabs(m->t) < r->near);
-    if (__builtin_expect(vany(near), 0)) {
-        /* How far t may be off. Of 2^-24: x by 2 x + 4 z, y likewise; so u, v, w by 12 x y +
-         * 8 z (x + y); each counts with a z, and 5 roundings of all come on top. */
-        vfloat x   = vmax(vabs(ax), vmax(vabs(bx), vabs(cx)));
-        vfloat y   = vmax(vabs(ay), vmax(vabs(by), vabs(cy)));
-        vfloat z   = vmax(vabs(az), vmax(vabs(bz), vabs(cz)));
-        vfloat off = 36.0f * x * y + 24.0f * z * (x + y) + 5.0f * vabs(det);
-        off        = 0x1p-24f * z * off * vabs(r->s[2]);
-        near &= ~(vabs(m->t * det) > off);
-    }
-    if (__builtin_expect(vany(edges | near), 0)) {
-        vedges e    = { ax, ay, az, bx, by, bz, cx, cy, cz };
-        vcorners at = *p;
-        vmeet on    = *m;
-        in          = (in & ~edges) | watertight_edge(&e, r->s[2], edges, &on);
-        watertight_near(r, &at, near | (edges & in & (vabs(on.t) < r->near)), &on);
-        *m = on;
-    }
+    vfloat det = e.u + e.v + e.w;
+    m->t       = (e.u * e.az + e.v * e.bz + e.w * e.cz) * r->s[2] / det;
+    m->u       = e.v / det;
+    m->v       = e.w / det;
+    *rare      = in & ((e.u == 0.0f) | (e.v == 0.0f) | (e.w == 0.0f) | (vabs(m->t) < r->near));
+    return in;
+}
+
+/* All of `lanes` anew: those in whose triangle the line lies. It takes no part in the usual
+ * course of things, and so none of its registers. */
+vmask watertight_rare(const vshear *r, const vcorners *p, vmask lanes, vmeet *m);
+
+/* The lanes of `in` whose ray meets the triangle at 0 < t <= most < INFINITY. */
+static inline vmask meet_within(const vmeet *m, vmask in, vfloat most)
+{
     return in & (m->t > 0.0f) & (m->t <= most);
 }
 
@@ -111,16 +106,15 @@ typedef struct vprojection {
 } vprojection;
 
 static inline __attribute__((always_inline)) vmask
-projection_test(const vaxes *r, const vprojection *p, vmask active, vfloat most, vmeet *m)
+projection_line(const vaxes *r, const vprojection *p, vmask active, vmeet *m)
 {
     m->t = (p->n_d - r->o[0] - p->n_u * r->o[1] - p->n_v * r->o[2]) /
            (r->d[0] + p->n_u * r->d[1] + p->n_v * r->d[2]);
-    vmask in  = active & (m->t > 0.0f) & (m->t <= most);
     vfloat hu = r->o[1] + m->t * r->d[1];
     vfloat hv = r->o[2] + m->t * r->d[2];
     m->u      = hu * p->b_u + hv * p->b_v + p->b_d;
     m->v      = hu * p->c_u + hv * p->c_v + p->c_d;
-    return in & (m->u >= 0.0f) & (m->v >= 0.0f) & (m->u + m->v <= 1.0f);
+    return active & (m->u >= 0.0f) & (m->v >= 0.0f) & (m->u + m->v <= 1.0f);
 }
 
 #endif

@@ -233,7 +233,8 @@ static void brute_mesh(const mesh *m, int instance, const vvec3 *o, const vvec3 
                        { p[1][0], p[1][1], p[1][2] },
                        { p[2][0], p[2][1], p[2][2] } };
         vmeet hit  = { 0 };
-        vmask in   = watertight_test(&s, &c, active, vmin(best->distance, vsplat(FLT_MAX)), &hit);
+        vmask in  = watertight_rare(&s, &c, active, &hit);
+        in        = meet_within(&hit, in, vmin(best->distance, vsplat(FLT_MAX)));
         in &= hit.t < best->distance; /* the first of equals stays */
         best->distance = vselect(in, hit.t, best->distance);
         best->instance = vselect_int(in, vsplat_int(instance), best->instance);

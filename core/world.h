@@ -2,7 +2,8 @@
  *
  * Each mesh has a tree of its own, made once; the upper tree holds its instances, each placed
  * by a matrix. Rays come as a batch of packets, with a hint of how alike they are: how the
- * batch is walked is the world's affair, and changes no result.
+ * batch is walked is the world's affair, and changes no result. Incoherent rays want batches of
+ * 64 and better 256 rays, which are put in order by direction; coherent ones may come alone.
  *
  * A ray leaves `origin` along `direction` (unit length) and sees what lies at a distance t with
  * 0 < t < reach. Of several surfaces at the same distance the one with the lower instance, then
@@ -44,7 +45,8 @@ typedef struct world_desc {
 } world_desc;
 
 /* Copies what it needs of the meshes, so that their arrays may go. NULL, with *err, if memory
- * is out. Degenerate triangles are never hit. A world of no triangles is a world. */
+ * is out (of which building takes some 500 bytes a triangle for a while). Degenerate triangles
+ * are never hit. A world of no triangles is a world. The same world for any number of threads. */
 world *world_new(arena *a, const world_desc *d, lux_error *err);
 
 typedef struct world_stats {
@@ -91,9 +93,10 @@ bool world_all_hits(const world *w, const vray *rays, const vmask *active, int p
 
 /* Where and what a hit is. */
 typedef struct vsurface {
-    vvec3 position; /* m, on the triangle, by its corners rather than along the ray */
-    vfloat error;   /* m, how far position may be off in each coordinate */
-    vvec3 normal;   /* unit, of the triangle's plane, on the front side */
+    vvec3 position; /* m, on the triangle by its corners, and off its edges by the error */
+    vfloat error;   /* m, how far position may be off the plane in each coordinate */
+    vvec3 normal;   /* unit, of the triangle's plane, on the front side: where the matrix takes
+                       the mesh's front, mirrored or not */
     vint material;  /* as the mesh has it */
 } vsurface;
 
@@ -101,7 +104,9 @@ typedef struct vsurface {
 void world_surface(const world *w, const vhit *hit, vmask active, vsurface *out);
 
 /* Where a ray toward `direction` may start without meeting the surface that it leaves: moved off
- * along the normal by what the error of the position needs. */
+ * along the normal, to the side of direction, by what the error of the position needs. A ray to
+ * a point must be aimed from here: take its direction, this start, then direction and reach
+ * anew. (Where direction runs along the surface to 1e-6 or so, its side is anyone's guess.) */
 vvec3 vray_start(const vsurface *from, const vvec3 *direction);
 
 #endif

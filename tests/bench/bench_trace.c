@@ -4,8 +4,9 @@
  *     bench_trace --serve             what runs in that: reads "scene kind", writes seconds
  *
  * All sides trace the same rays through the same triangles on one thread, in turn, in short
- * rounds, so that whatever else the machine does meets all of them; the best round counts.
- * Embree gets its rays laid out as it wants them before its clock starts.
+ * rounds, so that whatever else the machine does meets all of them; the best round counts, by
+ * the thread's own clock. Embree gets its rays laid out as it wants them before its clock
+ * starts, and its default, which lets rays through at edges now and then.
  */
 #include "core/packet_math.h"
 #include "core/world.h"
@@ -20,8 +21,6 @@
 enum { SIDE = 512, RAYS = SIDE * SIDE, PACKETS = RAYS / LANES, BATCH = 256 / LANES };
 enum { SCENES = 3, ROUNDS = 9 };
 typedef enum kind { CAMERA, SHADOW, DIFFUSE, KINDS } kind;
-
-static const char *const kind_names[KINDS] = { "camera", "shadow", "diffuse" };
 
 static double seconds(void)
 {
@@ -164,14 +163,6 @@ static void scene_make(scene *c, int number)
     further_rays(c);
 }
 
-static int count_active(const scene *c, kind k)
-{
-    int n = 0;
-    for (int i = 0; i < PACKETS; i++)
-        n += __builtin_popcount((unsigned)vbits(c->active[k][i]));
-    return n;
-}
-
 static void scene_clear(scene *c)
 {
     for (int k = 0; k < KINDS; k++) {
@@ -234,8 +225,6 @@ static embree embree_make(const char *options, const scene *c)
     rtcCommitGeometry(g);
     rtcAttachGeometry(e.scene, g);
     rtcReleaseGeometry(g);
-    if (getenv("ROBUST"))
-        rtcSetSceneFlags(e.scene, RTC_SCENE_FLAG_ROBUST);
     rtcCommitScene(e.scene);
     return e;
 }
@@ -332,6 +321,7 @@ static double server_trace(server *s, int scene_number, kind k)
 }
 
 enum { OURS, ONE_LANE, EMBREE, EMBREE_BEST, SIDES };
+static const char *const kind_names[KINDS] = { "camera", "shadow", "diffuse" };
 
 static void print_row(int triangles, kind k, double rays, const double best[SIDES], int apart)
 {
@@ -340,6 +330,14 @@ static void print_row(int triangles, kind k, double rays, const double best[SIDE
         printf("%9.2f", 1e-6 * rays / best[i]);
     printf("%9.2f%9.2f%9d\n", best[ONE_LANE] / best[OURS], best[EMBREE] / best[OURS], apart);
     fflush(stdout);
+}
+
+static int count_active(const scene *c, kind k)
+{
+    int n = 0;
+    for (int i = 0; i < PACKETS; i++)
+        n += __builtin_popcount((unsigned)vbits(c->active[k][i]));
+    return n;
 }
 
 static void bench_scene(int number, server *one_lane)
@@ -392,18 +390,6 @@ int main(int argc, char **argv)
 {
     if (argc == 2 && strcmp(argv[1], "--serve") == 0)
         return serve();
-    if (argc == 4) {
-        scene c = { 0 };
-        scene_make(&c, atoi(argv[2]));
-        double best = 1e9;
-        for (int i = 0; i < 30; i++)
-            best = fmin(best, trace(&c, (kind)atoi(argv[3])));
-        printf("%.2f M/s  %.0f B/tri build %.2f\n",
-               1e-6 * count_active(&c, (kind)atoi(argv[3])) / best,
-               (double)world_statistics(c.w).bytes / (double)world_statistics(c.w).triangles,
-               world_statistics(c.w).build_seconds);
-        return 0;
-    }
     if (argc == 2)
         return table(argv[1]);
     fprintf(stderr, "use: bench_trace ONE_LANE_PROGRAM\n");

@@ -69,8 +69,8 @@ static void report_json(FILE *out, const char *file, const photometry *p,
     json_number(out, "maximum_cd", true, f->maximum_cd);
     json_number(out, "maximum_c_deg", true, f->maximum_plane_deg);
     json_number(out, "maximum_gamma_deg", true, f->maximum_gamma_deg);
-    fprintf(out, "\"beam_deg\":[%.9g,%.9g],", f->beam_deg[0], f->beam_deg[1]);
-    fprintf(out, "\"field_deg\":[%.9g,%.9g],", f->field_deg[0], f->field_deg[1]);
+    fprintf(out, "\"beam_deg\":%.9g,\"beam_c90_deg\":%.9g,", f->beam_deg[0], f->beam_deg[1]);
+    fprintf(out, "\"field_deg\":%.9g,\"field_c90_deg\":%.9g,", f->field_deg[0], f->field_deg[1]);
     json_text(out, "flux_code", code);
     json_text(out, "symmetry", photometry_symmetry_name(p->symmetry));
     json_text(out, "opening", opening_shape_name(p->opening));

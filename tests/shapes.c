@@ -149,19 +149,34 @@ float random_unit(uint32_t *state)
 
 vec3 random_direction(uint32_t *state)
 {
-    float z = 2.0f * random_unit(state) - 1.0f, phi = 6.2831853f * random_unit(state);
-    float r = sqrtf(fmaxf(0.0f, 1.0f - z * z));
+    float z   = 2.0f * random_unit(state) - 1.0f;
+    float phi = 6.2831853f * random_unit(state);
+    float r   = sqrtf(fmaxf(0.0f, 1.0f - z * z));
     return (vec3){ r * cosf(phi), r * sinf(phi), z };
+}
+
+/* Each number drawn in a statement of its own: else compilers choose the order. */
+vec3 random_point(uint32_t *state)
+{
+    float x = 2.0f * random_unit(state) - 1.0f;
+    float y = 2.0f * random_unit(state) - 1.0f;
+    float z = 2.0f * random_unit(state) - 1.0f;
+    return (vec3){ x, y, z };
+}
+
+vec3 random_offset(float size, uint32_t *state)
+{
+    float length = size * random_unit(state);
+    return v3_scale(random_direction(state), length);
 }
 
 void shape_soup(shape *s, int triangles, float size, uint32_t seed)
 {
     for (int i = 0; i < triangles; i++) {
-        vec3 at = { 2.0f * random_unit(&seed) - 1.0f, 2.0f * random_unit(&seed) - 1.0f,
-                    2.0f * random_unit(&seed) - 1.0f };
+        vec3 at = random_point(&seed);
         uint32_t p[3];
         for (int k = 0; k < 3; k++) {
-            vec3 d = v3_scale(random_direction(&seed), size * random_unit(&seed));
+            vec3 d = random_offset(size, &seed);
             p[k]   = shape_point(s, (vec3){ at.x + d.x, at.y + d.y, at.z + d.z });
         }
         shape_triangle(s, p[0], p[1], p[2]);
@@ -233,8 +248,8 @@ static void brute_mesh(const mesh *m, int instance, const vvec3 *o, const vvec3 
                        { p[1][0], p[1][1], p[1][2] },
                        { p[2][0], p[2][1], p[2][2] } };
         vmeet hit  = { 0 };
-        vmask in  = watertight_rare(&s, &c, active, &hit);
-        in        = meet_within(&hit, in, vmin(best->distance, vsplat(FLT_MAX)));
+        vmask in   = watertight_rare(&s, &c, active, &hit);
+        in         = meet_within(&hit, in, vmin(best->distance, vsplat(FLT_MAX)));
         in &= hit.t < best->distance; /* the first of equals stays */
         best->distance = vselect(in, hit.t, best->distance);
         best->instance = vselect_int(in, vsplat_int(instance), best->instance);

@@ -27,6 +27,8 @@ void shape_soup(shape *s, int triangles, float size, uint32_t seed);
 /* Numbers in [0, 1), the same on every machine. */
 float random_unit(uint32_t *state);
 vec3 random_direction(uint32_t *state);
+vec3 random_point(uint32_t *state);              /* in [-1, 1)^3 */
+vec3 random_offset(float size, uint32_t *state); /* anywhere, shorter than size */
 
 /* One lane of a ray. */
 void ray_set(vray *r, int lane_number, vec3 origin, vec3 direction, float reach);

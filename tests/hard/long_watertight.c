@@ -47,9 +47,10 @@ TEST(a_million_rays_meet_what_testing_everything_meets)
     for (int n = 0; n < 1000000; n += LANES) {
         vray r    = { 0 };
         vmask all = ALL_LANES;
-        for (int k = 0; k < LANES; k++)
-            ray_set(&r, k, v3_scale(random_direction(&seed), 1.5f * random_unit(&seed)),
-                    random_direction(&seed), INFINITY);
+        for (int k = 0; k < LANES; k++) {
+            vec3 o = random_offset(1.5f, &seed);
+            ray_set(&r, k, o, random_direction(&seed), INFINITY);
+        }
         vhit got, want = brute_first(&d, &r, all);
         world_first_hit(w, &r, &all, 1, RAYS_COHERENT, &got);
         assert_memory_equal(&got, &want, sizeof got);

@@ -66,7 +66,7 @@ static inline int leaks_of_aimed_rays(const room *r, int rays, uint32_t seed)
         for (int i = 0; i < BATCH * LANES; i++) {
             vec3 o = r->inside, to = aim_at(r, &seed);
             if (random_unit(&seed) < 0.75f) {
-                vec3 off = v3_scale(random_direction(&seed), r->spread * random_unit(&seed));
+                vec3 off = random_offset(r->spread, &seed);
                 o        = (vec3){ o.x + off.x, o.y + off.y, o.z + off.z };
             }
             o = placed_point(r, o), to = placed_point(r, to);

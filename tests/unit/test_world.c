@@ -342,6 +342,30 @@ TEST(of_equals_the_lower_instance_then_the_lower_triangle_is_met)
     shape_clear(&s);
 }
 
+/* Instance 1 reaches farther down, and so is walked through before instance 0 is come to. */
+TEST(the_lower_instance_is_met_even_if_it_is_tried_later)
+{
+    shape s[2] = { { 0 } };
+    flat_square(&s[0], 1.0f);
+    flat_square(&s[1], 1.0f);
+    flat_square(&s[1], -3.0f);
+    for (uint32_t k = 4; k < 8; k++)
+        s[1].positions[k].x += 4.0f;
+    mesh m[2]           = { shape_mesh(&s[0]), shape_mesh(&s[1]) };
+    world_instance i[2] = { { .mesh = 0, .place = TRANSFORM_IDENTITY },
+                            { .mesh = 1, .place = TRANSFORM_IDENTITY } };
+    arena a             = { 0 };
+    world *w            = make(&a, &(world_desc){ m, 2, i, 2, TRIANGLE_WATERTIGHT, 1 });
+    for (int n = 0; n < 8; n++) {
+        vec3 o = { 0.11f * (float)n, 0.05f, -5.0f };
+        vhit h = one_hit_of(w, o, (vec3){ 0, 0, 1 }, INFINITY);
+        assert_true(vall(h.instance == vsplat_int(0)));
+    }
+    arena_clear(&a);
+    shape_clear(&s[0]);
+    shape_clear(&s[1]);
+}
+
 TEST(a_ray_ends_before_its_reach_and_begins_behind_its_origin)
 {
     shape s = { 0 };
@@ -677,6 +701,7 @@ int main(void)
         cmocka_unit_test(hints_and_batches_change_no_bit),
         cmocka_unit_test(dead_lanes_are_misses_whatever_they_hold),
         cmocka_unit_test(of_equals_the_lower_instance_then_the_lower_triangle_is_met),
+        cmocka_unit_test(the_lower_instance_is_met_even_if_it_is_tried_later),
         cmocka_unit_test(a_ray_ends_before_its_reach_and_begins_behind_its_origin),
         cmocka_unit_test(all_hits_come_in_order_up_to_the_first_that_is_not_hollow),
         cmocka_unit_test(all_hits_of_a_soup_are_first_hits_one_behind_the_other),

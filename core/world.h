@@ -45,7 +45,7 @@ typedef struct world_desc {
 } world_desc;
 
 /* Copies what it needs of the meshes, so that their arrays may go. NULL, with *err, if memory
- * is out (of which building takes some 500 bytes a triangle for a while). Degenerate triangles
+ * is out (of which building takes several times what is kept, for a while). Degenerate triangles
  * are never hit. A world of no triangles is a world. The same world for any number of threads. */
 world *world_new(arena *a, const world_desc *d, lux_error *err);
 

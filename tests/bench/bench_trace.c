@@ -10,6 +10,7 @@
  */
 #include "core/packet_math.h"
 #include "core/world.h"
+#include "sim/gltf.h"
 #include "tests/shapes.h"
 
 #include <stdio.h>
@@ -29,26 +30,33 @@ static double seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* ---- scenes: a room full of things ----------------------------------------------------------- */
+/* ---- scenes: the office, and the same office modelled finer --------------------------------- */
 
-static const int rings_of[SCENES] = { 11, 26, 53 }; /* 12,000; 65,000; 270,000 triangles */
+static const char *const files[SCENES] = { "data/office/office.glb", "build/bench/office-65000.glb",
+                                           "build/bench/office-270000.glb" };
 
-static void make_room(shape *s, int rings)
+/* All triangles of the file in one mesh, as Embree gets them too; *eye: its first camera. */
+static void read_scene(shape *s, transform *eye, const char *path)
 {
-    uint32_t seed = 7;
-    shape_box(s, (vec3){ 0, 0, 0 }, (vec3){ 8, 6, 3 }, 4);
-    for (int i = 0; i < 24; i++) {
-        vec3 at = { 0.5f + 7.0f * random_unit(&seed), 0.5f + 5.0f * random_unit(&seed),
-                    0.3f + 2.4f * random_unit(&seed) };
-        float r = 0.15f + 0.25f * random_unit(&seed);
-        if (i % 3 == 0)
-            shape_sphere(s, at, r, rings);
-        else if (i % 3 == 1)
-            shape_torus(s, at, r, 0.4f * r, rings);
-        else
-            shape_box(s, (vec3){ at.x - r, at.y - r, at.z - r },
-                      (vec3){ at.x + r, at.y + r, at.z + r }, rings / 2);
+    arena a       = { 0 };
+    lux_error err = { 0 };
+    const gltf *g = gltf_read(&a, path, NULL, &err);
+    if (!g || !g->camera_count) {
+        fprintf(stderr, "bench_trace: %s\n", g ? "no camera" : err.text);
+        exit(1);
     }
+    for (uint32_t k = 0; k < g->placement_count; k++) {
+        const gltf_placement *p = &g->placements[k];
+        const mesh *m           = &g->meshes[p->mesh].triangles;
+        uint32_t first          = s->position_count;
+        for (uint32_t v = 0; v < m->position_count; v++)
+            shape_point(s, d3_to_float(transform_point(&p->place, d3_from(m->positions[v]))));
+        for (uint32_t t = 0; t < m->triangle_count; t++)
+            shape_triangle(s, first + m->corners[3 * t], first + m->corners[3 * t + 1],
+                           first + m->corners[3 * t + 2]);
+    }
+    *eye = g->cameras[0].place;
+    arena_clear(&a);
 }
 
 /* ---- rays ------------------------------------------------------------------------------------ */
@@ -56,6 +64,7 @@ static void make_room(shape *s, int rings)
 typedef struct scene {
     arena memory;
     shape s;
+    transform eye; /* looks along -z */
     world *w;
     vray *rays[KINDS];
     vmask *active[KINDS];
@@ -82,13 +91,13 @@ static int even_bits(int n)
 
 static void camera_rays(scene *c)
 {
-    const vec3 eye = { 0.3f, 0.4f, 1.7f };
+    vec3 eye = d3_to_float(transform_point(&c->eye, (dvec3){ 0, 0, 0 }));
     for (int n = 0; n < RAYS; n++) {
-        float x = 2.0f * ((float)even_bits(n) + 0.5f) / SIDE - 1.0f;
-        float y = 2.0f * ((float)even_bits(n >> 1) + 0.5f) / SIDE - 1.0f;
-        vec3 d  = { 0.8f - 0.6f * x, 0.6f + 0.8f * x, 0.7f * y - 0.1f };
-        ray_set(&c->rays[CAMERA][n / LANES], n % LANES, eye, v3_scale(d, 1.0f / v3_length(d)),
-                INFINITY);
+        double x = 2.0 * (even_bits(n) + 0.5) / SIDE - 1.0;
+        double y = 2.0 * (even_bits(n >> 1) + 0.5) / SIDE - 1.0;
+        dvec3 d  = transform_vector(&c->eye, (dvec3){ 0.7 * x, 0.7 * y, -1.0 });
+        ray_set(&c->rays[CAMERA][n / LANES], n % LANES, eye,
+                d3_to_float(d3_scale(d, 1.0 / d3_length(d))), INFINITY);
     }
     for (int i = 0; i < PACKETS; i++)
         c->active[CAMERA][i] = ALL_LANES;
@@ -97,7 +106,7 @@ static void camera_rays(scene *c)
 /* From where the camera's rays end to a lamp, and anywhere by the cosine law */
 static void further_rays(scene *c)
 {
-    const vvec3 lamp = vspread((vec3){ 4.1f, 3.2f, 2.9f });
+    const vvec3 lamp = vspread((vec3){ 5.4f, 3.9f, 2.85f });
     uint32_t seed    = 5;
     for (int i = 0; i < PACKETS; i++) {
         vsurface s;
@@ -144,7 +153,7 @@ static double trace(scene *c, kind k)
 
 static void scene_make(scene *c, int number)
 {
-    make_room(&c->s, rings_of[number]);
+    read_scene(&c->s, &c->eye, files[number]);
     static const world_instance one = { .place = TRANSFORM_IDENTITY };
     mesh m                          = shape_mesh(&c->s);
     lux_error err;

@@ -36,14 +36,19 @@ static vmask unshadowed(const light *l, const vsurface *at, vmask active, vlight
     return lit & (*cosine > 0.0f);
 }
 
-/* A ray from the point to just before the lamp. */
+/* A ray from the point to just before the lamp, aimed anew from where it starts: near a lamp, the
+ * step off the surface is seen. */
 static vray shadow_ray(const vsurface *at, const vlight_sample *lamp)
 {
-    /* A lamp within a surface's rounding of that surface is not hidden by it */
+    /* A surface that the lamp lies in, to rounding, does not hide it */
     const float before = 1.0f - 0x1p-18f;
-    return (vray){ .origin    = vray_start(at, &lamp->wi),
-                   .direction = lamp->wi,
-                   .reach     = lamp->dist * before };
+    vvec3 start        = vray_start(at, &lamp->wi);
+    vmask far          = lamp->dist == INFINITY;
+    vvec3 to           = vsub(valong(at->position, lamp->wi, lamp->dist), start);
+    vfloat dist        = vlength(to);
+    return (vray){ .origin    = start,
+                   .direction = vselect3(far, lamp->wi, vscale(to, 1.0f / dist)),
+                   .reach     = vselect(far, lamp->dist, dist * before) };
 }
 
 static void trace_shadows(const scene *s, direct_scratch *w, int packets, ray_hint hint)

@@ -16,6 +16,11 @@ typedef struct job {
     const volatile bool *stop;
 } job;
 
+static bool stopped(const volatile bool *stop)
+{
+    return stop && __atomic_load_n(stop, __ATOMIC_RELAXED);
+}
+
 typedef struct worker {
     job *j;
     int thread;
@@ -25,7 +30,7 @@ static void *run(void *argument)
 {
     const worker *w = argument;
     job *j          = w->j;
-    while (!(j->stop && *j->stop)) {
+    while (!stopped(j->stop)) {
         int item = atomic_fetch_add(&j->next, 1);
         if (item >= j->items)
             break;
@@ -52,7 +57,7 @@ bool parallel_for(int items, int threads, void (*work)(void *, int, int), void *
     run(&workers[0]);
     for (int t = 1; t <= started; t++)
         pthread_join(handles[t], NULL);
-    return !(stop && *stop);
+    return !stopped(stop);
 }
 
 int parallel_processors(void)

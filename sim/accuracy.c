@@ -9,12 +9,13 @@
 #include <string.h>
 #include <time.h>
 
-/* Quantile of Student's t with 15 degrees of freedom at 1 - 0.035 / 2: see accuracy.h */
-static const double student_t = 2.317770;
-_Static_assert(SCRAMBLES == 16, "student_t is that of 15 degrees of freedom");
+/* 97.5 % quantile of Student's t by degrees of freedom (Abramowitz and Stegun, table 26.10) */
+static const double student_t[SCRAMBLES] = { HUGE_VAL, 12.7062, 4.3027, 3.1824, 2.7764, 2.5706,
+                                             2.4469,   2.3646,  2.3060, 2.2622, 2.2281, 2.2010,
+                                             2.1788,   2.1604,  2.1448, 2.1314 };
 
 /* Items so few that threads would lie idle are split by scramble where they need many samples. */
-enum { FEW_ITEMS = 1024 };
+enum { FEW_ITEMS = 1024, LONG_ROUND = 1 << 20 /* samples */ };
 
 typedef struct by_scramble {
     float sum[SCRAMBLES]; /* of channel 0 */
@@ -32,13 +33,15 @@ typedef struct run_state {
      * scrambles in that many pieces. */
     int *active, active_count, together, pieces;
     uint32_t n, first;
+    int from, to;  /* scrambles of this pass; all of them, but for the passes of the first round */
+    int scrambles; /* that every item has had, of SCRAMBLES */
     double *new_total;       /* (piece * active_count + j) * channels + channel */
     by_scramble *new_parts;  /* an active item */
     atomic_int *pieces_done; /* an active item */
     bool may_cut;            /* the deadline counts: not in the first round */
     atomic_llong samples_done;
     double samples_before, samples_predicted, reached;
-    volatile bool halt;
+    bool halt; /* by __atomic alone */
 } run_state;
 
 double clock_seconds(void)
@@ -101,11 +104,11 @@ static void do_work(void *context, int item, int thread)
 {
     run_state *s = context;
     int j0 = item / s->pieces * s->together, j1 = j0 + s->together;
-    int piece = item % s->pieces, per = SCRAMBLES / s->pieces;
+    int piece = item % s->pieces, per = (s->to - s->from) / s->pieces;
     j1 = j1 < s->active_count ? j1 : s->active_count;
 
     size_t at = (size_t)piece * (size_t)s->active_count + (size_t)j0;
-    sample_sets(s, thread, j0, j1, piece * per, (piece + 1) * per,
+    sample_sets(s, thread, j0, j1, s->from + piece * per, s->from + (piece + 1) * per,
                 s->new_total + at * (size_t)s->d->channels);
     for (int j = j0; j < j1; j++)
         atomic_fetch_add(&s->pieces_done[j], 1);
@@ -114,7 +117,7 @@ static void do_work(void *context, int item, int thread)
     progress_update(s->d->progress, (s->samples_before + now) / s->samples_predicted,
                     100.0 * s->reached);
     if (progress_stopped(s->d->progress) || (s->may_cut && clock_seconds() > s->d->deadline))
-        s->halt = true;
+        __atomic_store_n(&s->halt, true, __ATOMIC_RELAXED);
 }
 
 /* Takes over what this round found of the items that it finished. */
@@ -131,17 +134,18 @@ static void take_over(run_state *s)
                     s->new_total[(piece * active + j) * channels + c];
         for (int r = 0; r < SCRAMBLES; r++)
             s->parts[item].sum[r] += s->new_parts[j].sum[r];
-        s->r->samples[item] += SCRAMBLES * s->n;
+        s->r->samples[item] += (uint32_t)(s->to - s->from) * s->n;
     }
 }
 
 static bool sample_round(run_state *s, lux_error *err)
 {
-    arena scratch   = { 0 };
-    size_t active   = (size_t)s->active_count;
-    uint32_t sensor = SCRAMBLES * s->n; /* samples of an item */
-    s->together     = sensor <= BUNDLE ? (int)(BUNDLE / sensor) : 1;
-    s->pieces       = sensor > BUNDLE && s->active_count < FEW_ITEMS ? SCRAMBLES : 1;
+    arena scratch    = { 0 };
+    size_t active    = (size_t)s->active_count;
+    uint32_t an_item = (uint32_t)(s->to - s->from) * s->n; /* samples */
+    bool whole       = s->to - s->from == SCRAMBLES;
+    s->together      = an_item <= BUNDLE ? (int)(BUNDLE / an_item) : 1;
+    s->pieces        = whole && an_item > BUNDLE && s->active_count < FEW_ITEMS ? SCRAMBLES : 1;
     s->new_total =
         arena_array(&scratch, double, active *(size_t)s->pieces *(size_t)s->d->channels, err);
     s->new_parts   = arena_array(&scratch, by_scramble, active, err);
@@ -149,8 +153,11 @@ static bool sample_round(run_state *s, lux_error *err)
     if (s->new_total && s->new_parts && s->pieces_done) {
         int items = (s->active_count + s->together - 1) / s->together * s->pieces;
         atomic_store(&s->samples_done, 0);
-        parallel_for(items, s->d->threads, do_work, s, &s->halt);
-        take_over(s);
+        bool all = parallel_for(items, s->d->threads, do_work, s, &s->halt);
+        if (all || whole) /* a pass counts if every item has had it */
+            take_over(s);
+        if (all)
+            s->scrambles = s->to;
     }
     bool good = s->new_total && s->new_parts && s->pieces_done;
     arena_clear(&scratch);
@@ -166,18 +173,20 @@ static double value_of(const run_state *s, int item)
     return (s->d->exact ? s->d->exact[item] : 0.0) + (n > 0 ? s->total[item] / n : 0.0);
 }
 
-static double half_width_of(const run_state *s, int item)
+/* From the item's own scrambles alone. */
+static double own_half_width(const run_state *s, int item)
 {
-    double n = (double)(s->r->samples[item] / SCRAMBLES), mean = 0.0, squares = 0.0;
-    if (!(n > 0.0))
+    int scrambles = s->scrambles;
+    double n = (double)s->r->samples[item] / scrambles, mean = 0.0, squares = 0.0;
+    if (!(n > 0.0) || scrambles < 2)
         return 0.0;
-    for (int r = 0; r < SCRAMBLES; r++)
-        mean += (double)s->parts[item].sum[r] / (n * SCRAMBLES);
-    for (int r = 0; r < SCRAMBLES; r++) {
+    for (int r = 0; r < scrambles; r++)
+        mean += (double)s->parts[item].sum[r] / (n * scrambles);
+    for (int r = 0; r < scrambles; r++) {
         double off = (double)s->parts[item].sum[r] / n - mean;
         squares += off * off;
     }
-    return student_t * sqrt(squares / (SCRAMBLES - 1) / SCRAMBLES);
+    return student_t[scrambles - 1] * sqrt(squares / (scrambles - 1) / scrambles);
 }
 
 static double floor_of(const run_state *s)
@@ -196,11 +205,40 @@ static double floor_of(const run_state *s)
     return 0.1 * (geometric ? exp(sum / count) : sum / count);
 }
 
-/* Half width against what it is measured by: what the accuracy asked for bounds. */
+/* What the accuracy asked for is relative to. */
+static double against_of(const run_state *s, int item)
+{
+    return fmax(fabs(value_of(s, item)), s->r->floor);
+}
+
+/* The half width against that. */
 static double ratio_of(const run_state *s, int item)
 {
-    double against = fmax(fabs(value_of(s, item)), s->r->floor), half = s->r->half_width[item];
-    return half > 0.0 ? half / against : 0.0; /* infinite if against is 0 */
+    double half = s->r->half_width[item];
+    return half > 0.0 ? half / against_of(s, item) : 0.0; /* infinite if that is 0 */
+}
+
+/* Half widths of all items: their own, widened where an item seems surer than the others are on
+ * average for as many samples. Its samples may just have missed what is rare and bright. */
+static void estimate_half_widths(run_state *s)
+{
+    double pool = 0.0, count = 0.0; /* mean of n ratio^2 */
+    for (int i = 0; i < s->d->items; i++) {
+        double ratio;
+        s->r->half_width[i] = own_half_width(s, i);
+        ratio               = ratio_of(s, i);
+        if (!(ratio < HUGE_VAL))
+            continue;
+        pool += s->r->samples[i] * ratio * ratio;
+        count += 1.0;
+    }
+    pool = count > 0.0 ? pool / count : 0.0;
+    for (int i = 0; i < s->d->items; i++) {
+        double own = ratio_of(s, i), n = s->r->samples[i];
+        double others = n > 0.0 ? pool / n : 0.0;
+        if (own * own < others)
+            s->r->half_width[i] = sqrt(0.5 * (own * own + others)) * against_of(s, i);
+    }
 }
 
 static int compare(const void *a, const void *b)
@@ -226,9 +264,8 @@ static bool judge(run_state *s, lux_error *err)
     if (!ratios)
         return false;
 
-    for (int i = 0; i < items; i++)
-        s->r->half_width[i] = half_width_of(s, i);
-    s->r->floor       = floor_of(s);
+    s->r->floor = floor_of(s);
+    estimate_half_widths(s);
     s->r->missed      = 0;
     s->r->complete    = true;
     s->active_count   = 0;
@@ -238,7 +275,7 @@ static bool judge(run_state *s, lux_error *err)
         ratios[i] = ratio_of(s, i);
         s->samples_before += n;
         s->samples_predicted += n;
-        if (n == 0.0)
+        if (n == 0.0 || s->scrambles < 2)
             s->r->complete = false;
         if (n == 0.0 || ratios[i] > s->d->accuracy || is_in_doubt(s, i)) {
             double more = fmin(ratios[i] / s->d->accuracy, 1e3);
@@ -251,9 +288,36 @@ static bool judge(run_state *s, lux_error *err)
     int may_miss = (int)((1.0 - s->d->needed) * items + 1e-9);
     qsort(ratios, (size_t)items, sizeof *ratios, compare);
     s->reached = s->r->reached = ratios[items - 1 - may_miss];
-    s->r->enough               = s->r->complete && s->r->missed <= may_miss;
+    s->r->enough = s->scrambles == SCRAMBLES && s->r->complete && s->r->missed <= may_miss;
     arena_clear(&scratch);
     return true;
+}
+
+static void halt_if_late(run_state *s)
+{
+    if (progress_stopped(s->d->progress) || clock_seconds() > s->d->deadline)
+        __atomic_store_n(&s->halt, true, __ATOMIC_RELAXED);
+}
+
+/* The first round. Where it is long, or time is short, it goes scramble by scramble: once every
+ * item has had two, there is a result, however soon time is out. The sums are the same. */
+static bool first_round(run_state *s, lux_error *err)
+{
+    bool at_once =
+        s->d->deadline == HUGE_VAL && (double)s->d->items * SCRAMBLES * s->n < LONG_ROUND;
+    int step = at_once ? SCRAMBLES : 1;
+    for (int from = 0; from < SCRAMBLES && !s->halt; from += step) {
+        s->from = from;
+        s->to   = from + step;
+        if (!sample_round(s, err))
+            return false;
+        s->may_cut = s->scrambles >= 2;
+        if (s->may_cut || progress_stopped(s->d->progress))
+            halt_if_late(s);
+    }
+    s->from = 0;
+    s->to   = SCRAMBLES;
+    return judge(s, err);
 }
 
 static bool run_rounds(run_state *s, lux_error *err)
@@ -265,16 +329,17 @@ static bool run_rounds(run_state *s, lux_error *err)
     for (s->active_count = 0; s->active_count < d->items; s->active_count++)
         s->active[s->active_count] = s->active_count;
 
-    do {
+    if (!first_round(s, err))
+        return false;
+    while (!s->halt && !s->r->enough && 2 * (s->first + s->n) <= MOST_SAMPLES) {
+        s->first += s->n;
+        s->n = s->first; /* as many again: doubled; from there on, they are a net of their own */
         if (!sample_round(s, err) || !judge(s, err))
             return false;
-        s->may_cut = true;
-        s->first += s->n;
-        s->n = s->first; /* as many again: doubled */
-        if (progress_stopped(d->progress) || clock_seconds() > d->deadline)
-            s->halt = true;
-    } while (!s->halt && !s->r->enough && s->first + s->n <= MOST_SAMPLES);
+        halt_if_late(s);
+    }
     s->r->interrupted = progress_stopped(d->progress);
+    s->r->exhausted   = !s->halt && !s->r->enough;
     return true;
 }
 

@@ -7,15 +7,16 @@
  *
  *     half width = t s / sqrt(SCRAMBLES),    s^2 = sum (m - mean)^2 / (SCRAMBLES - 1)
  *
- * with t a quantile of Student's distribution of SCRAMBLES - 1 degrees of freedom, is half of a
- * confidence interval (Owen, "Monte Carlo theory, methods and examples", 17.2). n doubles from
- * round to round, and an unknown is done when its half width is at most
+ * with t the 97.5 % quantile of Student's distribution of SCRAMBLES - 1 degrees of freedom, is
+ * half of a 95 % confidence interval (Owen, "Monte Carlo theory, methods and examples", 17.2). n
+ * doubles from round to round, and an unknown is done when its half width is at most
  *
  *     accuracy * max(|mean|, floor)
  *
- * Who looks several times and stops at the first small interval stops too early too often: of
- * intervals made with the 95 % quantile, 2.131, some 93 % held the truth. The quantile of
- * 96.5 % is taken instead, and 95 % hold it (measured in tests/physics/test_interval.c).
+ * Who stops at the first small interval stops too early too often, and low: samples that missed
+ * what is rare and bright are few, dim and alike. So an unknown is never taken to be much surer
+ * than the others are: where its own relative variance v_i (of a sample) is below their mean v, the
+ * mean of both counts. What this buys is measured in tests/physics/test_interval.c.
  *
  * Results depend on the seed and not on threads: rounds are common to all, samples are summed by
  * number. Only a deadline, or the user's Ctrl-C, cuts a round short.
@@ -73,6 +74,7 @@ typedef struct accuracy_result {
     bool enough;        /* the share needed is done */
     bool complete;      /* every item has at least its first round */
     bool interrupted;   /* by stop */
+    bool exhausted;     /* MOST_SAMPLES are not enough */
 } accuracy_result;
 
 /* Samples until enough is done, or time or the user ends it. False, with *err, if memory is out.

@@ -36,19 +36,23 @@ static vmask unshadowed(const light *l, const vsurface *at, vmask active, vlight
     return lit & (*cosine > 0.0f);
 }
 
+static vfloat largest(vvec3 v) { return vmax(vabs(v.x), vmax(vabs(v.y), vabs(v.z))); }
+
 /* A ray from the point to just before the lamp, aimed anew from where it starts: near a lamp, the
- * step off the surface is seen. */
+ * step off the surface is seen. It ends where a surface in which the lamp lies may be rounded to:
+ * a few times what a float resolves at the larger of both places. */
 static vray shadow_ray(const vsurface *at, const vlight_sample *lamp)
 {
-    /* A surface that the lamp lies in, to rounding, does not hide it */
-    const float before = 1.0f - 0x1p-18f;
-    vvec3 start        = vray_start(at, &lamp->wi);
-    vmask far          = lamp->dist == INFINITY;
-    vvec3 to           = vsub(valong(at->position, lamp->wi, lamp->dist), start);
-    vfloat dist        = vlength(to);
+    const float roundings = 8.0f * 0x1p-24f;
+    vvec3 start           = vray_start(at, &lamp->wi);
+    vmask far             = lamp->dist == INFINITY;
+    vvec3 place           = valong(at->position, lamp->wi, lamp->dist);
+    vvec3 to              = vsub(place, start);
+    vfloat dist           = vlength(to);
+    vfloat before         = roundings * vmax(largest(place), vmax(largest(start), dist));
     return (vray){ .origin    = start,
                    .direction = vselect3(far, lamp->wi, vscale(to, 1.0f / dist)),
-                   .reach     = vselect(far, lamp->dist, dist * before) };
+                   .reach     = vselect(far, lamp->dist, dist - before) };
 }
 
 static void trace_shadows(const scene *s, direct_scratch *w, int packets, ray_hint hint)

@@ -103,11 +103,23 @@ static vrgb load_worth(const path_tracer *t, int k)
 /* ---- a step of all living paths ----------------------------------------------------------------
  */
 
-/* Next-event estimation where the paths stand. */
-static void ask_lamps(path_tracer *t, bool beginning)
+/* All lamps where the paths begin. One that is drawn by its luminance would do, but for colour: a
+ * mixture's luminance can be sure while its colour is not. */
+static void ask_all_lamps(path_tracer *t)
 {
-    if (t->s->light_count == 0)
-        return;
+    for (int first = 0; first < packets_of(t); first += DIRECT_PACKETS) {
+        int n = packets_of(t) - first;
+        n     = n < DIRECT_PACKETS ? n : DIRECT_PACKETS;
+        vrgb e[DIRECT_PACKETS];
+        direct_all(t->s, t->direct, t->at + first, t->active + first, n, e);
+        for (int k = 0; k < n; k++)
+            add_to(t, t->b->lamp, first + k, e[k]);
+    }
+}
+
+/* Next-event estimation where the paths stand: one lamp, by its luminance. */
+static void ask_a_lamp(path_tracer *t, bool beginning)
+{
     const scene *s = t->s;
     for (int first = 0; first < packets_of(t); first += DIRECT_PACKETS) {
         int n = packets_of(t) - first;
@@ -127,6 +139,16 @@ static void ask_lamps(path_tracer *t, bool beginning)
             add_to(t, t->b->indirect, k, vmul(load_worth(t, k), vmul(f, l->e)));
         }
     }
+}
+
+static void ask_lamps(path_tracer *t, bool beginning)
+{
+    if (t->s->light_count == 0)
+        return;
+    if (beginning && t->s->lights_differ)
+        ask_all_lamps(t);
+    else
+        ask_a_lamp(t, beginning);
 }
 
 /* Keeps the paths of `goes`, worth what `worth` says, heading along the rays of packet k. */

@@ -100,6 +100,7 @@ const scene *scene_new(arena *a, const study *from, int threads, notices *n, lux
     s->light_count    = (int)b.lights.count;
     s->lights         = b.lights.items;
     s->light_info     = b.light_info.items;
+    s->lights_differ  = b.lights_differ;
     s->camera_count   = (int)b.cameras.count;
     s->cameras        = b.cameras.items;
     say_what_surfaces_do(&b, s);

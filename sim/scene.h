@@ -25,6 +25,7 @@ typedef struct scene_light {
     const char *name; /* for reports: "downlight (4.ies)" */
     dvec3 at;         /* m, in the user's frame; of a far one: where it shines to */
     double lumens;    /* initial, dimming included; INFINITY: far away */
+    vec3 color;       /* luminance 1 */
 } scene_light;
 
 typedef struct scene_camera {
@@ -47,6 +48,7 @@ typedef struct scene {
     int light_count;
     const light *const *lights;
     const scene_light *light_info;
+    bool lights_differ; /* in colour: then luminance does not tell all of a mixture */
 
     int camera_count;
     const scene_camera *cameras;

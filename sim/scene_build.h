@@ -23,6 +23,7 @@ typedef struct scene_build {
     const uint32_t *first_material; /* of each file, as the scene counts */
     uint32_t *const *times; /* of each file: how often each of its meshes stands in the scene */
     list materials, material_info, lights, light_info, cameras;
+    bool lights_differ;        /* in colour */
     dvec3 centre, low, high;   /* m, of the surfaces, in the user's frame */
     double area, glowing_area; /* m^2 */
 } scene_build;

@@ -9,14 +9,18 @@
 #include <string.h>
 
 /* Adds a light that a maker gave, or passes on that it failed. */
-static bool add(scene_build *b, const light *l, const char *name, dvec3 at, double lumens)
+static bool add(scene_build *b, const light *l, const char *name, dvec3 at, double lumens,
+                vec3 color)
 {
     const light **to  = l ? list_new(&b->lights, b->a, const light *, b->err) : NULL;
     scene_light *info = to ? list_new(&b->light_info, b->a, scene_light, b->err) : NULL;
     if (!info)
         return false;
-    *to   = l;
-    *info = (scene_light){ name, at, lumens };
+    vec3 first = ((const scene_light *)b->light_info.items)->color;
+    *to        = l;
+    *info      = (scene_light){ name, at, lumens, color };
+    b->lights_differ |=
+        b->lights.count > 1 && (color.x != first.x || color.y != first.y || color.z != first.z);
     return true;
 }
 
@@ -98,7 +102,7 @@ static bool add_luminaires(scene_build *b)
                                  .web      = webs[i] };
             warn_if_outside(b, l->where, "luminaire", l->at[k]);
             if (!add(b, light_luminaire(b->a, &d, b->err), name, l->at[k],
-                     factor * webs[i]->luminaire_lumens))
+                     factor * webs[i]->luminaire_lumens, l->emission.color))
                 return false;
         }
     }
@@ -115,7 +119,7 @@ static bool add_points(scene_build *b)
                              .intensity = watts(l->emission.color, intensity) };
             warn_if_outside(b, l->where, "light", l->at[k]);
             if (!add(b, light_point(b->a, &d, b->err), l->name ? l->name : "point", l->at[k],
-                     4.0 * M_PI * intensity))
+                     4.0 * M_PI * intensity, l->emission.color))
                 return false;
         }
     }
@@ -138,18 +142,19 @@ static bool add_punctual(scene_build *b, const gltf_light *l, const transform *c
     dvec3 along   = transform_vector(&to, (dvec3){ 0, 0, -1 });
     vec3 place    = d3_to_float(d3_sub(at, b->centre));
     vec3 aim      = d3_to_float(d3_scale(along, 1.0 / d3_length(along)));
-    vec3 strength = watts(luminance_one(l->color), l->intensity);
+    vec3 color    = luminance_one(l->color);
+    vec3 strength = watts(color, l->intensity);
     double i      = rgb_luminance(l->color) > 0.0f ? l->intensity : 0.0;
 
     if (l->kind == GLTF_DIRECTIONAL)
         return add(b, light_parallel(b->a, &(parallel_desc){ aim, strength }, b->err), l->name,
-                   along, HUGE_VAL);
+                   along, HUGE_VAL, color);
     if (l->kind == GLTF_POINT)
         return add(b, light_point(b->a, &(point_desc){ place, strength }, b->err), l->name, at,
-                   4.0 * M_PI * i);
+                   4.0 * M_PI * i, color);
     cone_desc d = { place, aim, strength, (float)l->inner, (float)l->outer };
     double full = 1.0 - cos(l->inner), rim = (cos(l->inner) - cos(l->outer)) / 3.0;
-    return add(b, light_cone(b->a, &d, b->err), l->name, at, 2.0 * M_PI * i * (full + rim));
+    return add(b, light_cone(b->a, &d, b->err), l->name, at, 2.0 * M_PI * i * (full + rim), color);
 }
 
 static bool add_gltf_lights(scene_build *b)

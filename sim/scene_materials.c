@@ -7,6 +7,21 @@
 #include "core/color.h"
 #include "sim/scene_build.h"
 
+/* Light dies out nowhere in a closed room whose surfaces give all of it back, and its illuminance
+ * has no finite value. The whitest surfaces there are, of sintered PTFE, reflect 99 %. */
+static const float most_reflectance = 0.995f;
+
+static vec3 bounded(scene_build *b, vec3 reflectance, bool used)
+{
+    if (used && fmaxf(reflectance.x, fmaxf(reflectance.y, reflectance.z)) > most_reflectance)
+        notice_add(b->notices,
+                   "%s: some materials reflect more than 99.5 %%, as no real surface does: "
+                   "taken as 99.5 %% (lux4 check lists them)",
+                   b->study->path);
+    return (vec3){ fminf(reflectance.x, most_reflectance), fminf(reflectance.y, most_reflectance),
+                   fminf(reflectance.z, most_reflectance) };
+}
+
 static bool add(scene_build *b, const char *name, vec3 reflectance, vec3 emission, bool used)
 {
     bool overridden = false;
@@ -17,6 +32,7 @@ static bool add(scene_build *b, const char *name, vec3 reflectance, vec3 emissio
             overridden  = true;
         }
     }
+    reflectance          = bounded(b, reflectance, used);
     diffuse_desc d       = { reflectance, v3_scale(emission, 1.0f / (float)LUMENS_PER_WATT) };
     const material **m   = list_new(&b->materials, b->a, const material *, b->err);
     scene_material *info = list_new(&b->material_info, b->a, scene_material, b->err);

@@ -141,6 +141,17 @@ static int run_all(const command_context *c, const scene *s, totals *t, lux_erro
     return EXIT_DONE;
 }
 
+/* What would stop the work in its midst is found before it begins. */
+static bool check_grid(const scene *s, const command_context *c, const study_grid *g,
+                       lux_error *err)
+{
+    arena scratch = { 0 };
+    grid_result ignored;
+    bool good = grid_sensors(&scratch, g, &ignored, err);
+    arena_clear(&scratch);
+    return good && output_check(s->study, &c->line->place, g->name, extensions, EXTENSIONS, err);
+}
+
 static int grid_command(const command_context *c, lux_error *err)
 {
     const scene *s = command_scene(c, err);
@@ -151,8 +162,7 @@ static int grid_command(const command_context *c, lux_error *err)
         return EXIT_INPUT;
     }
     for (int i = 0; i < s->study->grid_count; i++)
-        if (!output_check(s->study, &c->line->place, s->study->grids[i].name, extensions,
-                          EXTENSIONS, err))
+        if (!check_grid(s, c, &s->study->grids[i], err))
             return exit_code_of(err, true);
 
     totals t = { .enough = true, .interval_valid = true };

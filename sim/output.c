@@ -1,12 +1,15 @@
 /* sim/output.c -- see output.h. */
+#define _GNU_SOURCE
 #include "sim/output.h"
 
 #include "core/file.h"
 #include "core/image.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 const char *output_study_name(const study *s)
 {
@@ -59,6 +62,10 @@ static bool check(arena *a, const study *s, const output_place *o, const char *n
     lux_error why = { 0 };
     if (!folder_make(folder, &why))
         return failed(err, why.code == ERR_MEMORY ? ERR_MEMORY : ERR_ARGUMENT, "%s", why.text);
+    char text[128];
+    if (access(folder, W_OK | X_OK) != 0)
+        return failed(err, ERR_ARGUMENT, "%s: cannot write into this folder: %s", folder,
+                      strerror_r(errno, text, sizeof text));
     for (int i = 0; i < count; i++) {
         struct stat st;
         const char *path = output_path(a, s, o, name, extensions[i], err);

@@ -141,15 +141,20 @@ static int run_all(const command_context *c, const scene *s, totals *t, lux_erro
     return EXIT_DONE;
 }
 
-/* What would stop the work in its midst is found before it begins. */
-static bool check_grid(const scene *s, const command_context *c, const study_grid *g,
-                       lux_error *err)
+/* What would stop the work in its midst is found before it begins, and before a folder is made. */
+static bool check_grids(const scene *s, const output_place *o, lux_error *err)
 {
-    arena scratch = { 0 };
-    grid_result ignored;
-    bool good = grid_sensors(&scratch, g, &ignored, err);
-    arena_clear(&scratch);
-    return good && output_check(s->study, &c->line->place, g->name, extensions, EXTENSIONS, err);
+    const study *from = s->study;
+    bool good         = true;
+    for (int i = 0; i < from->grid_count && good; i++) {
+        arena scratch = { 0 };
+        grid_result ignored;
+        good = grid_sensors(&scratch, &from->grids[i], &ignored, err);
+        arena_clear(&scratch);
+    }
+    for (int i = 0; i < from->grid_count && good; i++)
+        good = output_check(from, o, from->grids[i].name, extensions, EXTENSIONS, err);
+    return good;
 }
 
 static int grid_command(const command_context *c, lux_error *err)
@@ -161,9 +166,8 @@ static int grid_command(const command_context *c, lux_error *err)
         failed(err, ERR_ARGUMENT, "%s: the study has no `grids`", s->study->path);
         return EXIT_INPUT;
     }
-    for (int i = 0; i < s->study->grid_count; i++)
-        if (!check_grid(s, c, &s->study->grids[i], err))
-            return exit_code_of(err, true);
+    if (!check_grids(s, &c->line->place, err))
+        return exit_code_of(err, true);
 
     totals t = { .enough = true, .interval_valid = true };
     int code = run_all(c, s, &t, err);

@@ -9,6 +9,7 @@
 #include "sim/path.h"
 #include "sim/probes.h"
 
+#include <float.h>
 #include <string.h>
 
 enum { SAMPLED, GLOW, CHANNELS }; /* of accuracy_run(): all that is sampled, what of it is direct */
@@ -185,6 +186,21 @@ static void summarise(grid_result *r)
     }
 }
 
+/* At a lamp itself illuminance has no bound. */
+static bool all_finite(const scene *s, const grid_result *r, lux_error *err)
+{
+    for (int k = 0; k < r->sensor_count; k++) {
+        const dvec3 *at = &r->sensors[k].at;
+        if (!isfinite(r->illuminance[k]) || !isfinite(r->half_width[k]) ||
+            r->illuminance[k] > (double)FLT_MAX)
+            return study_failed(s->study, r->grid->where, err, ERR_ARGUMENT,
+                                "grid `%s`: the sensor at (%g, %g, %g) m has no finite "
+                                "illuminance: a light is all but at it, or far too strong",
+                                r->grid->name, at->x, at->y, at->z);
+    }
+    return true;
+}
+
 static bool sample_rest(arena *a, grid_run_state *g, grid_result *r, lux_error *err)
 {
     accuracy_desc d = { .items         = r->sensor_count,
@@ -264,6 +280,7 @@ bool grid_run(arena *a, const scene *s, const study_grid *grid, const run_option
         else
             take_direct_alone(&g, out);
     }
+    good = good && all_finite(s, out, err);
     if (good) {
         summarise(out);
         for (int t = 0; t < o->threads; t++)

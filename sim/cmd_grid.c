@@ -39,9 +39,8 @@ static void print_table(const scene *s, const grid_result *r, bool first)
     if (!r->enough)
         printf("  accuracy: %d of %d sensors are not within %g %% yet\n", r->missed,
                r->sensor_count, 100.0 * r->asked);
-    if (!r->interval_valid)
-        puts("  interval not valid: glowing surfaces are small and met by chance, which samples "
-             "may miss");
+    if (r->left_to_chance)
+        printf("  interval not valid: %s\n", r->left_to_chance);
 }
 
 /* ---- as JSON
@@ -127,7 +126,7 @@ static int run_all(const command_context *c, const scene *s, totals *t, lux_erro
             t->seconds += r.seconds;
             t->rays += r.rays;
             t->enough &= r.enough;
-            t->interval_valid &= r.interval_valid;
+            t->interval_valid &= !r.left_to_chance;
             if (code == EXIT_DONE && r.interrupted) {
                 failed(err, ERR_INTERRUPTED, "interrupted: grid %s is less accurate than asked for",
                        r.grid->name);

@@ -258,7 +258,7 @@ bool grid_run(arena *a, const scene *s, const study_grid *grid, const run_option
     out->asked          = !isnan(o->accuracy)          ? o->accuracy
                           : !isnan(s->study->accuracy) ? s->study->accuracy
                                                        : GRID_DEFAULT_PERCENT / 100.0;
-    out->interval_valid = !s->glows || s->glow_share >= LEAST_GLOW_SHARE;
+    out->left_to_chance = scene_left_to_chance(s, o->direct_only);
     out->illuminance    = good ? arena_array(a, double, n, err) : NULL;
     out->direct         = out->illuminance ? arena_array(a, double, n, err) : NULL;
     out->indirect       = out->direct ? arena_array(a, double, n, err) : NULL;

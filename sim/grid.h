@@ -30,12 +30,12 @@ typedef struct grid_result {
 
     double average, minimum, maximum, uniformity; /* lx, lx, lx; minimum / average, 0 if dark */
     double average_half_width;                    /* lx: mean of half_width */
-    double worst_half_width; /* relative to max(illuminance, a tenth of the average) */
-    double asked;            /* the accuracy that was asked for */
-    int missed;              /* sensors whose half width is beyond it */
-    bool enough;             /* the accuracy asked for is reached */
-    bool interrupted;        /* the user stopped it; what is here is complete all the same */
-    bool interval_valid;     /* no path class was left to chance */
+    double worst_half_width;    /* relative to max(illuminance, a tenth of the average) */
+    double asked;               /* the accuracy that was asked for */
+    int missed;                 /* sensors whose half width is beyond it */
+    bool enough;                /* the accuracy asked for is reached */
+    bool interrupted;           /* the user stopped it; what is here is complete all the same */
+    const char *left_to_chance; /* why the intervals are not valid; NULL: they are */
     double seconds;
     int64_t rays;
 } grid_result;

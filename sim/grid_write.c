@@ -58,6 +58,8 @@ bool grid_write_exr(const char *path, const scene *s, const grid_result *r, noti
             { "lux4:study", ATTRIBUTE_STRING, output_study_name(s->study), 0 },
             { "lux4:unit", ATTRIBUTE_STRING, "lx", 0 },
             { "lux4:version", ATTRIBUTE_STRING, LUX4_VERSION, 0 },
+            { "lux4:interval", ATTRIBUTE_STRING, r->left_to_chance ? r->left_to_chance : "valid",
+              0 },
             { "lux4:partial", ATTRIBUTE_STRING, "interrupted", 0 }, /* the last: left out else */
         };
         int count = sizeof attributes / sizeof *attributes;

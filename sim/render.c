@@ -256,8 +256,7 @@ bool view_run(arena *a, const scene *s, const study_view *view, const run_option
                           .width  = v.camera.width,
                           .height = v.camera.height,
                           .asked  = isnan(o->accuracy) ? VIEW_DEFAULT_PERCENT / 100.0 : o->accuracy,
-                          .interval_valid =
-                              !s->glows || s->glow_share >= LEAST_GLOW_SHARE };
+                          .left_to_chance = scene_left_to_chance(s, o->direct_only) };
     progress_begin(o->progress, view->name);
     bool good = run(a, &scratch, &v, out, err);
     for (int t = 0; good && t < o->threads; t++)

@@ -20,7 +20,8 @@ typedef struct view_result {
 
     double asked, reached; /* accuracy: what was asked, what 98 % of the pixels have */
     double log_average;    /* cd/m^2, of the pixels that are not black */
-    bool enough, interrupted, interval_valid;
+    bool enough, interrupted;
+    const char *left_to_chance; /* why the intervals are not valid; NULL: they are */
     double seconds;
     int64_t rays;
 } view_result;

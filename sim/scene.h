@@ -56,11 +56,11 @@ typedef struct scene {
     bool reflects;     /* some surface does */
     bool glows;        /* some surface emits light */
     double glow_share; /* those that do, of the area of all */
+    int near_lamps;    /* lamps that shine on a surface beside them */
 } scene;
 
-/* Glowing surfaces are met by chance, not sought: where they are less of all surfaces than this,
- * samples may miss them all, and no interval tells. */
-#define LEAST_GLOW_SHARE 0.01
+/* The light that samples may miss without an interval telling, in words; NULL if there is none. */
+const char *scene_left_to_chance(const scene *s, bool direct_only);
 
 /* Builds the scene of a study into a, on that many threads. NULL, with *err naming file and
  * place. What is left out or looks like a mistake (a luminaire outside the room) is noticed. */

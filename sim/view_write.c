@@ -25,6 +25,7 @@ bool view_write_exr(const char *path, const scene *s, const view_result *r, bool
         { "lux4:study", ATTRIBUTE_STRING, output_study_name(s->study), 0 },
         { "lux4:version", ATTRIBUTE_STRING, LUX4_VERSION, 0 },
         { "lux4:view", ATTRIBUTE_STRING, r->view->name, 0 },
+        { "lux4:interval", ATTRIBUTE_STRING, r->left_to_chance ? r->left_to_chance : "valid", 0 },
         { "lux4:partial", ATTRIBUTE_STRING, "interrupted", 0 }, /* the last: left out else */
     };
     int count = sizeof attributes / sizeof *attributes;

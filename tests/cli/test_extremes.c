@@ -111,6 +111,41 @@ TEST(lamps_in_odd_places_give_finite_light)
     }
 }
 
+/* What a lamp sheds on a surface beside it comes back from a patch that paths hardly ever meet:
+ * with a uniform lamp that is half of its light, with a downlight under the ceiling nothing. */
+TEST(a_lamp_beside_a_surface_that_it_lights_has_no_valid_interval)
+{
+    static const struct {
+        const char *lamp, *valid;
+    } tries[] = {
+        { "lights: [{type: point, at: [2, 1.5, 2.0], intensity: 100}]", "true" },
+        { "lights: [{type: point, at: [2, 1.5, 2.49], intensity: 100}]", "false" },
+        { "lights: [{type: point, at: [0.001, 1.5, 2.0], intensity: 100}]", "false" },
+        { "luminaires: [{photometry: downlight.ies, at: [2, 1.5, 2.49]}]", "true" },
+        { "luminaires: [{photometry: downlight.ies, at: [2, 1.5, 2.49], aim: [0, 0, 1]}]",
+          "false" },
+    };
+    size_t size;
+    char *web        = bytes_of(path_in(project_root(), "data/office/downlight.ies"), &size);
+    program_result r = { 0 };
+    for (size_t i = 0; i < sizeof tries / sizeof *tries; i++) {
+        char yaml[512];
+        snprintf(yaml, sizeof yaml, "%s%s\n", ROOM, tries[i].lamp);
+        char *folder = folder_of_study(yaml);
+        folder_write(folder, "downlight.ies", web);
+        LUX4(folder, 0, &r, "grid", "study.yaml", "--json", "--accuracy=30%");
+        const char *valid = json_at(r.out, "interval_valid");
+        if (strncmp(valid, tries[i].valid, 4) != 0 ||
+            !strstr(r.err, "are not valid") != (*valid == 't'))
+            fail_msg("%s: interval_valid is %s%s", tries[i].lamp, valid, r.err);
+        LUX4(folder, 0, &r, "grid", "study.yaml", "--json", "--direct-only");
+        assert_memory_equal(json_at(r.out, "interval_valid"), "true", 4);
+        folder_free(folder);
+    }
+    program_free(&r);
+    free(web);
+}
+
 TEST(a_sensor_at_a_lamp_is_refused_or_finite)
 {
     static const struct {
@@ -190,6 +225,7 @@ int main(void)
         cmocka_unit_test(a_room_that_absorbs_nothing_comes_to_an_end),
         cmocka_unit_test(black_rooms_and_dark_lamps_give_zeros),
         cmocka_unit_test(lamps_in_odd_places_give_finite_light),
+        cmocka_unit_test(a_lamp_beside_a_surface_that_it_lights_has_no_valid_interval),
         cmocka_unit_test(a_sensor_at_a_lamp_is_refused_or_finite),
         cmocka_unit_test(sensors_in_odd_places_get_finite_light),
         cmocka_unit_test(lamps_add_up_however_many_and_strong),

@@ -102,6 +102,7 @@ TEST(an_exr_holds_what_the_csv_holds)
                         c->row[k][layers[i].column], 1e-6);
     assert_near(attribute_of(&im, "whiteLuminance")->number, 179.0, 0.0);
     assert_string_equal(attribute_of(&im, "lux4:study")->text, "rows.yaml");
+    assert_string_equal(attribute_of(&im, "lux4:interval")->text, "valid");
     arena_clear(&a);
     free(c);
     program_free(&r);

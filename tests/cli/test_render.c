@@ -123,6 +123,7 @@ TEST(a_view_of_nothing_is_black)
     assert_true(json_is_valid(r.out));
     assert_memory_equal(json_at(r.out, "views.2.name"), "\"away\"", 6);
     assert_near(json_number_at(r.out, "views.2.width"), 5.0, 0.0);
+    assert_memory_equal(json_at(r.out, "views.2.interval_valid"), "true", 4);
     read_view(&a, folder, "out/away.exr", &im);
     for (int i = 0; i < im.channel_count; i++)
         for (int k = 0; k < 20; k++)

@@ -51,6 +51,16 @@ double clock_seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+const char *run_end_text(run_end end)
+{
+    static const char *const texts[] = {
+        [RUN_INTERRUPTED] = "interrupted before the accuracy asked for was reached",
+        [RUN_LATE]        = "the time was out before the accuracy asked for was reached",
+        [RUN_EXHAUSTED]   = "the accuracy asked for takes more samples than lux4 draws",
+    };
+    return end == RUN_DONE ? NULL : texts[end];
+}
+
 /* ---- one round: samples ------------------------------------------------------------------------
  */
 
@@ -288,7 +298,8 @@ static bool judge(run_state *s, lux_error *err)
     int may_miss = (int)((1.0 - s->d->needed) * items + 1e-9);
     qsort(ratios, (size_t)items, sizeof *ratios, compare);
     s->reached = s->r->reached = ratios[items - 1 - may_miss];
-    s->r->enough = s->scrambles == SCRAMBLES && s->r->complete && s->r->missed <= may_miss;
+    bool enough = s->scrambles == SCRAMBLES && s->r->complete && s->r->missed <= may_miss;
+    s->r->end   = enough ? RUN_DONE : RUN_EXHAUSTED; /* unless something else ends it before */
     arena_clear(&scratch);
     return true;
 }
@@ -331,15 +342,15 @@ static bool run_rounds(run_state *s, lux_error *err)
 
     if (!first_round(s, err))
         return false;
-    while (!s->halt && !s->r->enough && 2 * (s->first + s->n) <= MOST_SAMPLES) {
+    while (!s->halt && s->r->end != RUN_DONE && 2 * (s->first + s->n) <= MOST_SAMPLES) {
         s->first += s->n;
         s->n = s->first; /* as many again: doubled; from there on, they are a net of their own */
         if (!sample_round(s, err) || !judge(s, err))
             return false;
         halt_if_late(s);
     }
-    s->r->interrupted = progress_stopped(d->progress);
-    s->r->exhausted   = !s->halt && !s->r->enough;
+    if (s->halt && s->r->end != RUN_DONE)
+        s->r->end = progress_stopped(d->progress) ? RUN_INTERRUPTED : RUN_LATE;
     return true;
 }
 

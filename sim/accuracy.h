@@ -64,6 +64,15 @@ typedef struct accuracy_desc {
     void *context;
 } accuracy_desc;
 
+/* Why a run ended, and what that is called in results: NULL for RUN_DONE. */
+typedef enum run_end {
+    RUN_DONE,        /* the accuracy asked for is reached */
+    RUN_INTERRUPTED, /* the user stopped it */
+    RUN_LATE,        /* its time was out */
+    RUN_EXHAUSTED,   /* MOST_SAMPLES are not enough */
+} run_end;
+const char *run_end_text(run_end end);
+
 typedef struct accuracy_result {
     double *mean;       /* items * channels, channel by channel; without `exact` */
     double *half_width; /* an item, of channel 0 */
@@ -71,10 +80,8 @@ typedef struct accuracy_result {
     int missed;         /* items that are not done */
     double floor;       /* what `floor` came to */
     double reached;     /* the accuracy that all but the items beyond `needed` have */
-    bool enough;        /* the share needed is done */
+    run_end end;        /* RUN_DONE: the share needed is done */
     bool complete;      /* every item has at least its first round */
-    bool interrupted;   /* by stop */
-    bool exhausted;     /* MOST_SAMPLES are not enough */
 } accuracy_result;
 
 /* Samples until enough is done, or time or the user ends it. False, with *err, if memory is out.

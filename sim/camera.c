@@ -52,8 +52,9 @@ static bool of_gltf(const scene *s, const study_view *v, camera *c, lux_error *e
         return study_failed(s->study, v->where, err, ERR_ARGUMENT,
                             "view `%s`: camera `%s` is scaled to nothing", v->name, v->camera);
 
-    if (!v->size_given && from->perspective && from->aspect > 0.0)
-        c->height = (int)fmin(fmax(round(c->width / from->aspect), 1.0), 16384.0);
+    double shape = from->perspective ? from->aspect : from->xmag / from->ymag;
+    if (!v->size_given && shape > 0.0 && shape < HUGE_VAL)
+        c->height = (int)fmin(fmax(round(c->width / shape), 1.0), 16384.0);
     dvec3 forward = unit(look), right = unit(side), up = d3_cross(right, forward);
     double aspect  = (double)c->width / c->height;
     c->perspective = from->perspective;

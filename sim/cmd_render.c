@@ -24,11 +24,11 @@ static void print_view(const command_context *c, const view_result *r, const cha
         return;
     }
     if (first)
-        printf("%-16s %11s %14s %12s %9s %12s\n", "view", "pixels", "average/cd/m2", "accuracy/%",
+        printf("%-16s %11s %15s %12s %9s %12s\n", "view", "pixels", "log-mean/cd/m2", "accuracy/%",
                "time/s", "rays/million");
     char pixels[32];
     snprintf(pixels, sizeof pixels, "%dx%d", r->width, r->height);
-    printf("%-16s %11s %14.2f %12.1f %9.2f %12.1f\n", r->view->name, pixels, r->log_average,
+    printf("%-16s %11s %15.2f %12.1f %9.2f %12.1f\n", r->view->name, pixels, r->log_average,
            100.0 * r->reached, r->seconds, 1e-6 * (double)r->rays);
     if (r->left_to_chance)
         printf("  interval not valid: %s\n", r->left_to_chance);
@@ -37,15 +37,16 @@ static void print_view(const command_context *c, const view_result *r, const cha
 
 typedef struct totals {
     int printed; /* views */
-    bool enough;
+    int code;    /* EXIT_INACCURATE once a view was */
 } totals;
 
-static int run_view(const command_context *c, const scene *s, const study_view *v, totals *all,
+static int run_view(const command_context *c, const scene *s, int index, totals *all,
                     lux_error *err)
 {
-    arena of_view = { 0 };
+    const study_view *v = &s->study->views[index];
+    arena of_view       = { 0 };
     view_result r;
-    run_options o   = command_run_options(c);
+    run_options o   = command_run_options(c, s->study->view_count - index);
     const char *exr = output_path(c->a, s->study, &c->line->place, v->name, ".exr", err);
     const char *png =
         exr ? output_path(c->a, s->study, &c->line->place, v->name, ".png", err) : NULL;
@@ -59,12 +60,8 @@ static int run_view(const command_context *c, const scene *s, const study_view *
             code = exit_code_of(err, false);
         else
             print_view(c, &r, exr, png, all->printed++ == 0);
-        all->enough &= r.enough;
-        if (code == EXIT_DONE && r.interrupted) {
-            failed(err, ERR_INTERRUPTED, "interrupted: view %s is less accurate than asked for",
-                   v->name);
-            code = EXIT_INTERRUPTED;
-        }
+        if (code == EXIT_DONE)
+            code = command_end(r.end, "view", v->name, err);
     }
     arena_clear(&of_view);
     return code;
@@ -87,17 +84,16 @@ static int render_command(const command_context *c, lux_error *err)
             return exit_code_of(err, true);
     }
 
-    totals all = { .enough = true };
+    totals all = { 0 };
     int code   = EXIT_DONE;
-    for (int i = 0; i < s->study->view_count && code == EXIT_DONE; i++)
-        code = run_view(c, s, &s->study->views[i], &all, err);
+    for (int i = 0; i < s->study->view_count && code == EXIT_DONE; i++) {
+        code = run_view(c, s, i, &all, err);
+        if (code == EXIT_INACCURATE) /* the next one may do better */
+            all.code = code, code = EXIT_DONE;
+    }
     if (c->line->json)
         fputs(all.printed ? "]}\n" : "{\"views\":[]}\n", stdout);
-    if (code == EXIT_DONE && !all.enough) {
-        failed(err, ERR_NONE, "the accuracy asked for was not reached in the time given");
-        code = EXIT_INACCURATE;
-    }
-    return code;
+    return code == EXIT_DONE ? all.code : code;
 }
 
 const command command_render = {

@@ -19,15 +19,24 @@ int command_threads(const command_context *c)
     return c->line->threads ? c->line->threads : parallel_processors();
 }
 
-run_options command_run_options(const command_context *c)
+run_options command_run_options(const command_context *c, int left)
 {
-    return (run_options){ .accuracy = c->line->accuracy,
-                          .deadline =
-                              isnan(c->line->seconds) ? HUGE_VAL : c->begun + c->line->seconds,
+    double now = clock_seconds(), end = c->begun + c->line->seconds;
+    return (run_options){ .accuracy    = c->line->accuracy,
+                          .deadline    = isnan(end) ? HUGE_VAL : now + fmax(end - now, 0.0) / left,
                           .seed        = c->line->seed,
                           .threads     = command_threads(c),
                           .direct_only = c->line->direct_only,
                           .progress    = c->progress };
+}
+
+int command_end(run_end end, const char *what, const char *name, lux_error *err)
+{
+    if (end == RUN_DONE)
+        return EXIT_DONE;
+    failed(err, end == RUN_INTERRUPTED ? ERR_INTERRUPTED : ERR_NONE, "%s %s: %s", what, name,
+           run_end_text(end));
+    return end == RUN_INTERRUPTED ? EXIT_INTERRUPTED : EXIT_INACCURATE;
 }
 
 int exit_code_of(const lux_error *err, bool reading)

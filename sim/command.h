@@ -67,7 +67,12 @@ const scene *command_scene(const command_context *c, lux_error *err);
 
 /* Threads to run on; and the options of a run. */
 int command_threads(const command_context *c);
-run_options command_run_options(const command_context *c);
+/* `left`: grids or views that are still to run, this one included, among which what is left of
+ * --time is shared. */
+run_options command_run_options(const command_context *c, int left);
+
+/* The exit code for why a run ended, with *err saying it of `what` ("grid desk"). */
+int command_end(run_end end, const char *what, const char *name, lux_error *err);
 
 /* EXIT_INPUT or EXIT_RUNTIME (or EXIT_INTERRUPTED), by the kind of error and by whether the input
  * was being read. */

@@ -113,7 +113,7 @@ static bool take(command_line *l, const char *name, const char *value, lux_error
             return false;
         l->threads = (int)n;
     } else if (!strcmp(name, "--seed")) {
-        if (!whole(name, value, 0.0, 4294967295.0, "a whole number from 0 to 4294967295", &n, err))
+        if (!whole(name, value, 1.0, 4294967295.0, "a whole number from 1 to 4294967295", &n, err))
             return false;
         l->seed = (uint32_t)n;
     } else if (!strcmp(name, "--plot")) {
@@ -174,7 +174,7 @@ static bool read_option(const command *c, int count, char *const *words, int *at
 bool command_line_read(arena *a, const command *c, int count, char *const *words, command_line *out,
                        lux_error *err)
 {
-    *out               = (command_line){ .seed = 1, .accuracy = (double)NAN, .seconds = (double)NAN };
+    *out = (command_line){ .seed = 1, .accuracy = (double)NAN, .seconds = (double)NAN };
     const char **files = arena_array(a, const char *, (size_t)count + 1, err);
     if (!files)
         return false;

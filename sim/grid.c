@@ -79,11 +79,14 @@ bool grid_sensors(arena *a, const study_grid *g, grid_result *out, lux_error *er
     return g->points ? point_sensors(a, g, out, err) : plane_sensors(a, g, out, err);
 }
 
-/* A sensor is a place of which single precision knows a few roundings. */
-static float place_error(vec3 p)
+/* How far a sensor may be off, and a surface that it lies on: a few roundings of the farthest
+ * corner of the scene. */
+static float place_error(const scene *s, vec3 p)
 {
-    float most = fmaxf(fabsf(p.x), fmaxf(fabsf(p.y), fabsf(p.z)));
-    return 4.0f * 0x1p-23f * fmaxf(most, 0x1p-6f);
+    float most  = fmaxf(fabsf(p.x), fmaxf(fabsf(p.y), fabsf(p.z)));
+    dvec3 off   = d3_scale(d3_sub(s->high, s->low), 0.5);
+    double half = s->low.x <= s->high.x ? fmax(off.x, fmax(off.y, off.z)) : 0.0;
+    return 8.0f * 0x1p-24f * fmaxf(most, fmaxf((float)half, 0x1p-6f));
 }
 
 /* ---- light that needs no samples
@@ -99,7 +102,7 @@ static vmask place_sensors(const grid_run_state *g, int first, vsurface *at)
         vec3 place = scene_place(g->s, one->at), normal = d3_to_float(one->normal);
         p[0][i] = place.x, p[1][i] = place.y, p[2][i] = place.z;
         n[0][i] = normal.x, n[1][i] = normal.y, n[2][i] = normal.z;
-        error[i] = place_error(place);
+        error[i] = place_error(g->s, place);
     }
     *at = (vsurface){ .position = { vload(p[0]), vload(p[1]), vload(p[2]) },
                       .normal   = { vload(n[0]), vload(n[1]), vload(n[2]) },
@@ -134,7 +137,7 @@ static void sample_sensors(void *context, int thread, const sample_id *ids, int 
         vec3 place = scene_place(g->s, one->at), normal = d3_to_float(one->normal);
         b->x[i] = place.x, b->y[i] = place.y, b->z[i] = place.z;
         b->nx[i] = normal.x, b->ny[i] = normal.y, b->nz[i] = normal.z;
-        b->error[i] = place_error(place);
+        b->error[i] = place_error(g->s, place);
         b->index[i] = ids[i].index;
         b->seed[i]  = hash_combine_u32(hash_combine_u32(g->seed, ids[i].item), ids[i].scramble);
     }
@@ -231,9 +234,9 @@ static bool sample_rest(arena *a, grid_run_state *g, grid_result *r, lux_error *
         r->illuminance[k] = r->direct[k] + r->indirect[k];
         r->half_width[k]  = maintenance * got.half_width[k];
     }
-    r->missed      = got.missed;
-    r->enough      = got.enough;
-    r->interrupted = got.interrupted;
+    r->missed  = got.missed;
+    r->end     = got.end;
+    r->reached = got.reached;
     return true;
 }
 
@@ -241,7 +244,7 @@ static void take_direct_alone(const grid_run_state *g, grid_result *r)
 {
     for (int k = 0; k < r->sensor_count; k++)
         r->illuminance[k] = r->direct[k] = g->s->study->maintenance * g->direct[k];
-    r->enough = true;
+    r->end = RUN_DONE;
 }
 
 bool grid_run(arena *a, const scene *s, const study_grid *grid, const run_options *o,

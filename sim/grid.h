@@ -3,6 +3,7 @@
 #define SIM_GRID_H
 
 #include "core/progress.h"
+#include "sim/accuracy.h"
 #include "sim/scene.h"
 
 /* What is asked of a run, grids and views alike. */
@@ -33,8 +34,8 @@ typedef struct grid_result {
     double worst_half_width;    /* relative to max(illuminance, a tenth of the average) */
     double asked;               /* the accuracy that was asked for */
     int missed;                 /* sensors whose half width is beyond it */
-    bool enough;                /* the accuracy asked for is reached */
-    bool interrupted;           /* the user stopped it; what is here is complete all the same */
+    double reached;             /* the accuracy that every sensor has */
+    run_end end;                /* why it ended; what is here is complete all the same */
     const char *left_to_chance; /* why the intervals are not valid; NULL: they are */
     double seconds;
     int64_t rays;

@@ -19,8 +19,8 @@ bool grid_write_csv(const char *path, const grid_result *r, lux_error *err)
                 s->at.y, s->at.z, s->normal.x, s->normal.y, s->normal.z, r->illuminance[k],
                 r->direct[k], r->indirect[k], r->half_width[k]);
     }
-    if (r->interrupted)
-        fputs("# partial: interrupted before the accuracy asked for was reached\n", f.stream);
+    if (r->end == RUN_INTERRUPTED)
+        fprintf(f.stream, "# partial: %s\n", run_end_text(r->end));
     return file_commit(&f, err);
 }
 
@@ -53,6 +53,7 @@ bool grid_write_exr(const char *path, const scene *s, const grid_result *r, noti
         image_attribute attributes[] = {
             { "whiteLuminance", ATTRIBUTE_FLOAT, NULL, (float)LUMENS_PER_WATT },
             { "lux4:accuracy", ATTRIBUTE_FLOAT, NULL, (float)r->asked },
+            { "lux4:accuracyReached", ATTRIBUTE_FLOAT, NULL, (float)r->reached },
             { "lux4:grid", ATTRIBUTE_STRING, r->grid->name, 0 },
             { "lux4:quantity", ATTRIBUTE_STRING, "illuminance", 0 },
             { "lux4:study", ATTRIBUTE_STRING, output_study_name(s->study), 0 },
@@ -60,14 +61,15 @@ bool grid_write_exr(const char *path, const scene *s, const grid_result *r, noti
             { "lux4:version", ATTRIBUTE_STRING, LUX4_VERSION, 0 },
             { "lux4:interval", ATTRIBUTE_STRING, r->left_to_chance ? r->left_to_chance : "valid",
               0 },
-            { "lux4:partial", ATTRIBUTE_STRING, "interrupted", 0 }, /* the last: left out else */
+            { "lux4:partial", ATTRIBUTE_STRING, run_end_text(r->end),
+              0 }, /* left out if it is not */
         };
         int count = sizeof attributes / sizeof *attributes;
         image im  = { .width           = r->columns,
                       .height          = r->rows,
                       .channel_count   = LAYERS,
                       .channels        = channels,
-                      .attribute_count = r->interrupted ? count : count - 1,
+                      .attribute_count = r->end == RUN_INTERRUPTED ? count : count - 1,
                       .attributes      = attributes };
         good      = image_write_exr(path, &im, false, n, err);
     }

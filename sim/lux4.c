@@ -129,22 +129,25 @@ lux4_grid *lux4_run_grid(lux4 *l, int index, const lux4_options *options, lux4_e
     }
     owned_grid *g = arena_new(&a, owned_grid, &why);
     if (g && grid_run(&a, l->scene, &l->study->grids[index], &o, &r, &why)) {
-        g->public = (lux4_grid){ .name           = r.grid->name,
-                                 .sensor_count   = r.sensor_count,
-                                 .columns        = r.columns,
-                                 .rows           = r.rows,
-                                 .illuminance_lx = r.illuminance,
-                                 .direct_lx      = r.direct,
-                                 .indirect_lx    = r.indirect,
-                                 .half_width_lx  = r.half_width,
-                                 .average_lx     = r.average,
-                                 .minimum_lx     = r.minimum,
-                                 .maximum_lx     = r.maximum,
-                                 .uniformity     = r.uniformity,
-                                 .missed         = r.missed,
-                                 .interrupted    = r.interrupted,
-                                 .seconds        = r.seconds,
-                                 .rays           = r.rays };
+        g->public = (lux4_grid){ .name             = r.grid->name,
+                                 .sensor_count     = r.sensor_count,
+                                 .columns          = r.columns,
+                                 .rows             = r.rows,
+                                 .illuminance_lx   = r.illuminance,
+                                 .direct_lx        = r.direct,
+                                 .indirect_lx      = r.indirect,
+                                 .half_width_lx    = r.half_width,
+                                 .average_lx       = r.average,
+                                 .minimum_lx       = r.minimum,
+                                 .maximum_lx       = r.maximum,
+                                 .uniformity       = r.uniformity,
+                                 .missed           = r.missed,
+                                 .accuracy_reached = r.reached,
+                                 .enough           = r.end == RUN_DONE,
+                                 .interrupted      = r.end == RUN_INTERRUPTED,
+                                 .left_to_chance   = r.left_to_chance,
+                                 .seconds          = r.seconds,
+                                 .rays             = r.rays };
         g->a      = a;
         if (split_sensors(g, &r, &why))
             return &g->public;
@@ -185,8 +188,16 @@ lux4_view *lux4_run_view(lux4 *l, int index, const lux4_options *options, lux4_e
                                  .illuminance_lx   = r.illuminance,
                                  .half_width_cd_m2 = r.half_width,
                                  .distance_m       = r.distance,
-                                 .enough           = r.enough,
-                                 .interrupted      = r.interrupted,
+                                 .normal_x         = r.normal[0],
+                                 .normal_y         = r.normal[1],
+                                 .normal_z         = r.normal[2],
+                                 .albedo_red       = r.albedo[0],
+                                 .albedo_green     = r.albedo[1],
+                                 .albedo_blue      = r.albedo[2],
+                                 .accuracy_reached = r.reached,
+                                 .enough           = r.end == RUN_DONE,
+                                 .interrupted      = r.end == RUN_INTERRUPTED,
+                                 .left_to_chance   = r.left_to_chance,
                                  .seconds          = r.seconds,
                                  .rays             = r.rays };
         v->a      = a;

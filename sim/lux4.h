@@ -58,10 +58,10 @@ const char *lux4_view_name(const lux4 *study, int index);
 
 /* How to run; zeros (or NULL for all of it) are the defaults. */
 typedef struct lux4_options {
-    double accuracy;           /* 0.02 for 2 %; 0: the study's, or else 2 % (grids), 10 % (views) */
+    double accuracy;           /* 0.02 for 2 %; 0: the study's or else 2 % (grids), 10 % (views) */
     double seconds;            /* stop after that time with what there is; 0: no limit */
     int threads;               /* 0: as many as there are processors */
-    uint32_t seed;             /* another seed, another set of random samples; 0 is 1 */
+    uint32_t seed;             /* another seed, another set of random samples; 0: 1 */
     bool direct_only;          /* leave interreflection out */
     const volatile bool *stop; /* NULL, or the run ends early once it is true */
 
@@ -79,8 +79,11 @@ typedef struct lux4_grid {
     double *illuminance_lx, *direct_lx, *indirect_lx;      /* maintained */
     double *half_width_lx;                                 /* of the 95 % confidence interval */
     double average_lx, minimum_lx, maximum_lx, uniformity; /* uniformity: minimum / average */
-    int missed;       /* sensors that are not as accurate as asked for */
-    bool interrupted; /* by *stop; the numbers are complete, and less accurate */
+    int missed;                 /* sensors that are not as accurate as asked for */
+    double accuracy_reached;    /* that every sensor has, relative */
+    bool enough;                /* the accuracy asked for is reached */
+    bool interrupted;           /* by *stop; the numbers are complete, and less accurate */
+    const char *left_to_chance; /* why the intervals are not valid; NULL: they are */
     double seconds;
     int64_t rays;
 } lux4_grid;
@@ -96,7 +99,11 @@ typedef struct lux4_view {
     float *illuminance_lx;     /* on the surface seen */
     float *half_width_cd_m2;   /* of the luminance's 95 % confidence interval */
     float *distance_m;         /* along the ray; 0: nothing is seen */
-    bool enough, interrupted;  /* 98 % of the pixels are as accurate as asked for; by *stop */
+    float *normal_x, *normal_y, *normal_z; /* unit, toward the eye; 0: nothing is seen */
+    float *albedo_red, *albedo_green, *albedo_blue;
+    double accuracy_reached;    /* that 98 % of the pixels have, relative */
+    bool enough, interrupted;   /* the accuracy asked for is reached; by *stop */
+    const char *left_to_chance; /* why the intervals are not valid; NULL: they are */
     double seconds;
     int64_t rays;
 } lux4_view;

@@ -202,8 +202,7 @@ static void take_pixels(const view_run_state *v, const accuracy_result *got, vie
     }
     out->log_average = bright > 0.0 ? exp(logs / bright) : 0.0;
     out->reached     = got->reached;
-    out->enough      = got->enough;
-    out->interrupted = got->interrupted;
+    out->end         = got->end;
 }
 
 static bool make_threads(view_run_state *v, arena *a, lux_error *err)

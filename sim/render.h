@@ -18,9 +18,9 @@ typedef struct view_result {
     float *normal[3];   /* unit, toward the eye; 0 where nothing is seen */
     float *albedo[3];
 
-    double asked, reached; /* accuracy: what was asked, what 98 % of the pixels have */
-    double log_average;    /* cd/m^2, of the pixels that are not black */
-    bool enough, interrupted;
+    double asked, reached;      /* accuracy: what was asked, what 98 % of the pixels have */
+    double log_average;         /* cd/m^2, of the pixels that are not black */
+    run_end end;                /* why it ended; what is here is complete all the same */
     const char *left_to_chance; /* why the intervals are not valid; NULL: they are */
     double seconds;
     int64_t rays;

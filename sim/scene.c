@@ -78,6 +78,9 @@ static void say_what_surfaces_do(const scene_build *b, scene *s)
         s->glows |= m->used && !is_dark(m->emission);
     }
     s->glow_share = b->area > 0.0 ? b->glowing_area / b->area : 0.0;
+    if (s->light_count == 0 && !s->glows)
+        notice_add(b->notices, "%s: nothing gives light: every result will be 0 lx",
+                   b->study->path);
 }
 
 const scene *scene_new(arena *a, const study *from, int threads, notices *n, lux_error *err)

@@ -29,13 +29,20 @@ static vec3 watts(vec3 color, double per_lumen_unit)
     return v3_scale(color, (float)(per_lumen_unit / LUMENS_PER_WATT));
 }
 
-/* A lamp beyond the walls of the room, or beyond all surfaces, lights nothing that was meant. */
+/* A lamp beyond the walls of the room, or far from all surfaces, lights nothing that was meant. (A
+ * street lamp stands above all surfaces, and is right.) */
 static void warn_if_outside(const scene_build *b, study_where where, const char *what, dvec3 at)
 {
     bool room  = b->study->room.given;
     dvec3 low  = room ? (dvec3){ 0, 0, 0 } : b->low;
     dvec3 high = room ? b->study->room.size : b->high;
     bool empty = !(low.x <= high.x);
+    if (!room && !empty) {
+        dvec3 more = d3_sub(high, low);
+        double far = d3_length(more);
+        low        = d3_sub(low, (dvec3){ far, far, far });
+        high       = d3_add(high, (dvec3){ far, far, far });
+    }
     if (empty || (at.x >= low.x && at.x <= high.x && at.y >= low.y && at.y <= high.y &&
                   at.z >= low.z && at.z <= high.z))
         return;
@@ -175,14 +182,5 @@ bool build_lights(scene_build *b)
 {
     if (!(add_luminaires(b) && add_points(b) && add_gltf_lights(b)))
         return false;
-    if (b->lights.count == 0) {
-        const scene_material *m = b->material_info.items;
-        bool glows              = false;
-        for (size_t i = 0; i < b->material_info.count; i++)
-            glows |= m[i].emission.x > 0 || m[i].emission.y > 0 || m[i].emission.z > 0;
-        if (!glows)
-            notice_add(b->notices, "%s: nothing gives light: every result will be 0 lx",
-                       b->study->path);
-    }
     return true;
 }

@@ -19,6 +19,7 @@ bool view_write_exr(const char *path, const scene *s, const view_result *r, bool
     image_attribute attributes[] = {
         { "whiteLuminance", ATTRIBUTE_FLOAT, NULL, (float)LUMENS_PER_WATT },
         { "lux4:accuracy", ATTRIBUTE_FLOAT, NULL, (float)r->asked },
+        { "lux4:accuracyReached", ATTRIBUTE_FLOAT, NULL, (float)r->reached },
         { "lux4:halfWidthUnit", ATTRIBUTE_STRING, "cd/m^2", 0 },
         { "lux4:illuminanceUnit", ATTRIBUTE_STRING, "lx", 0 },
         { "lux4:radianceUnit", ATTRIBUTE_STRING, "W/(sr m^2)", 0 },
@@ -33,7 +34,7 @@ bool view_write_exr(const char *path, const scene *s, const view_result *r, bool
                   .height          = r->height,
                   .channel_count   = sizeof channels / sizeof *channels,
                   .channels        = channels,
-                  .attribute_count = r->interrupted ? count : count - 1,
+                  .attribute_count = r->end == RUN_INTERRUPTED ? count : count - 1,
                   .attributes      = attributes };
     return image_write_exr(path, &im, half, n, err);
 }

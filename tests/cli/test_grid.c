@@ -225,7 +225,7 @@ TEST(without_time_the_first_results_are_written_whole)
     program_result r = { 0 };
     csv *c           = malloc(sizeof *c);
     LUX4(folder, 3, &r, "grid", "study.yaml", "--time", "0", "--accuracy", "0.01%");
-    assert_one_line(&r, "accuracy asked for was not reached");
+    assert_one_line(&r, "time was out before the accuracy asked for was reached");
     assert_non_null(strstr(r.out, "3 of 3 sensors are not within 0.01 % yet"));
     csv_read(path_in(folder, "out/floor-1.csv"), c);
     assert_int_equal(c->count, 3);

@@ -186,7 +186,7 @@ TEST(without_time_a_first_picture_is_written)
     char *folder     = folder_of_study(room);
     program_result r = { 0 };
     LUX4(folder, 3, &r, "render", "study.yaml", "--time", "0", "--accuracy", "0.1%");
-    assert_one_line(&r, "accuracy asked for was not reached");
+    assert_one_line(&r, "time was out before the accuracy asked for was reached");
     assert_png(path_in(folder, "out/in.png"), 20, 15);
     assert_int_equal(count_names(path_in(folder, "out")), 6);
     program_free(&r);

@@ -35,7 +35,7 @@ TEST(the_room_as_gltf_agrees_with_the_independent_solution)
     grid_result r;
     grid_of_scene(&a, b.scene, 0, &(run_options){ .accuracy = 0.01, .seed = 1, .threads = 2 }, &r);
     assert_agrees(&r, b.direct, b.total);
-    assert_true(r.enough && r.missed == 0);
+    assert_true(r.end == RUN_DONE && r.missed == 0);
     arena_clear(&a);
 }
 

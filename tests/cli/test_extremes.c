@@ -133,7 +133,10 @@ TEST(a_lamp_beside_a_surface_that_it_lights_has_no_valid_interval)
         snprintf(yaml, sizeof yaml, "%s%s\n", ROOM, tries[i].lamp);
         char *folder = folder_of_study(yaml);
         folder_write(folder, "downlight.ies", web);
-        LUX4(folder, 0, &r, "grid", "study.yaml", "--json", "--accuracy=30%");
+        program_run(&(program_desc){ .folder = folder,
+                                     .words  = { "grid", "study.yaml", "--json", "--time=0.2" } },
+                    &r);
+        assert_true(r.code == 0 || r.code == 3); /* it may take long to see such a patch */
         const char *valid = json_at(r.out, "interval_valid");
         if (strncmp(valid, tries[i].valid, 4) != 0 ||
             !strstr(r.err, "are not valid") != (*valid == 't'))

@@ -102,8 +102,9 @@ const command command_render = {
     .summary = "the study's views: radiometric .exr and tone-mapped .png",
     .help    = "The EXR holds R G B in W/(sr m2) (times 179: cd/m2), illuminance.Y in lux on the\n"
                "surface seen, halfWidth.Y in cd/m2, Z in metres along the ray (0: nothing seen),\n"
-               "normal.X/Y/Z and albedo.R/G/B. `accuracy` in the study is for grids. A view is done when 98 % of its pixels are within the\n"
-               "accuracy asked for, of their value or of a tenth of the picture's log-average.\n",
+               "normal.X/Y/Z and albedo.R/G/B. A view is done when 98 % of its pixels are within the\n"
+               "accuracy asked for, of their value or of a tenth of the picture's log-average: 10 %\n"
+               "unless --accuracy says otherwise (`accuracy` in the study is for grids).\n",
     .options = " -o --overwrite --accuracy --time --threads --seed --direct-only --half --exposure "
                "--json --quiet ",
     .run     = render_command,

@@ -17,8 +17,8 @@ extern "C" {
 #endif
 
 typedef struct image_channel {
-    const char *name;    /* "R", "direct.Y", ...; in an EXR at most 255 bytes */
-    float *values;       /* width * height, the top row first, left to right */
+    const char *name; /* "R", "direct.Y", ...; in an EXR at most 255 bytes */
+    float *values;    /* width * height, the top row first, left to right */
 } image_channel;
 
 typedef enum attribute_type { ATTRIBUTE_STRING, ATTRIBUTE_FLOAT } attribute_type;
@@ -26,8 +26,8 @@ typedef enum attribute_type { ATTRIBUTE_STRING, ATTRIBUTE_FLOAT } attribute_type
 typedef struct image_attribute {
     const char *name; /* "whiteLuminance", "lux4:seed", ... */
     attribute_type type;
-    const char *text;      /* of a string */
-    float number;          /* of a float */
+    const char *text; /* of a string */
+    float number;     /* of a float */
 } image_attribute;
 
 typedef struct image {

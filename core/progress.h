@@ -35,7 +35,10 @@ void progress_begin(progress *p, const char *label);
 void progress_update(progress *p, double share, double accuracy_percent);
 
 /* Whether the work should end early. */
-static inline bool progress_stopped(const progress *p) { return p && p->stop && __atomic_load_n(p->stop, __ATOMIC_RELAXED); }
+static inline bool progress_stopped(const progress *p)
+{
+    return p && p->stop && __atomic_load_n(p->stop, __ATOMIC_RELAXED);
+}
 
 #ifdef __cplusplus
 }

@@ -46,7 +46,8 @@ ifneq (,$(filter-out help clean deps layers format format-check,$(or $(MAKECMDGO
   include build/pkg.mk
 endif
 
-CPPFLAGS := -I. -MMD -MP -DPACKET_WIDTH=$(WIDTH) -DLUX4_VERSION='"$(VERSION)"' $(PKG_CFLAGS)
+CPPFLAGS := -I. -MMD -MP -DPACKET_WIDTH=$(WIDTH) -DLUX4_VERSION='"$(VERSION)"' \
+            -DLUX4_LIBDIR='"$(PREFIX)/lib/lux4"' $(PKG_CFLAGS)
 CFLAGS   := -std=gnu17 -g $(OPT) $(FP) $(SANS) $(WARN) $(WARN_C)
 CXXFLAGS := -std=c++17 -g $(OPT) $(FP) $(SANS) $(WARN)
 LDFLAGS  := $(SANS) -Wl,--as-needed

@@ -222,8 +222,14 @@ INLINE void triangle_leaf(query_kind kind, bool watertight, pass *p, const uint3
         if (!vany(in))
             continue;
         in = meet_within(&m, in, p->q->limit);
-        if (vany(in))
-            accept(kind, p, items[i], in, &m);
+        if (!vany(in))
+            continue;
+        accept(kind, p, items[i], in, &m);
+        if (kind == ANY_HIT) { /* blocked is blocked, wherever */
+            inside &= p->q->limit > -INFINITY;
+            if (!vany(inside))
+                return;
+        }
     }
 }
 

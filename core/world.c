@@ -16,7 +16,7 @@ static double seconds(void)
 /* ---- building ------------------------------------------------------------------------------- */
 
 /* What a step down a tree costs, in tests of a triangle and in walks through a mesh. */
-static const double traverse_triangles = 1.2, traverse_instances = 0.1;
+static const double traverse_triangles = 2.0, traverse_instances = 0.1;
 
 static bool copy_mesh(arena *a, const mesh *m, solid *to, uint64_t *bytes, lux_error *err)
 {

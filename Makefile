@@ -181,7 +181,7 @@ deps:
 	@sudo=$$([ $$(id -u) = 0 ] || echo sudo); set -x; $$sudo apt-get update && $$sudo env \
 	  DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $(DEBS)
 
-## fuzz: a minute of random bytes at each reader, built by clang (SECONDS=60; findings: build/fuzz)
+## fuzz: a minute of random bytes at the readers of studies and tables, built by clang (SECONDS=60; findings: build/fuzz)
 fuzz:
 	$Q$(MAKE) CC=clang CXX=clang++ FUZZ=1 fuzzers
 fuzzers: $(FUZZERS)
@@ -189,12 +189,19 @@ fuzzers: $(FUZZERS)
 	  $$f -max_total_time=$(or $(SECONDS),60) -timeout=5 -max_len=4000 -verbosity=0 \
 	  -print_final_stats=1 -artifact_prefix=build/fuzz/ build/fuzz/$$(basename $$f) || exit 1; done
 
+# The library as others link it: one object, whose names are those of lux4.h alone
+$B/public/liblux4.a: $B/liblux4.a
+	@mkdir -p $(@D); echo "AR   $@"; rm -f $@
+	$Qld -r --whole-archive $< -o $(@D)/lux4.o
+	$Qobjcopy --wildcard --keep-global-symbol='lux4_*' $(@D)/lux4.o
+	$Qar rcs $@ $(@D)/lux4.o
+
 ## install: program, library, header, manual and data below PREFIX (default /usr/local; DESTDIR too)
-install: all
+install: all $B/public/liblux4.a
 	install -d $(TO)/bin $(TO)/lib/lux4 $(TO)/lib/pkgconfig $(TO)/include/lux4 $(TO)/share/man/man1 $(TO)/share/lux4/office
 	install -m 755 $(PROG) $(TO)/bin
 	install -m 755 $(PLUG) $(TO)/lib/lux4
-	install -m 644 $B/liblux4.a $(TO)/lib
+	install -m 644 $B/public/liblux4.a $(TO)/lib
 	install -m 644 sim/lux4.h $(TO)/include/lux4
 	install -m 644 sim/lux4.1 $(TO)/share/man/man1
 	install -m 644 $(wildcard data/office/*.yaml data/office/*.glb data/office/*.ies data/office/*.ldt) $(TO)/share/lux4/office

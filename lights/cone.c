@@ -46,7 +46,13 @@ static vec3 cone_flux(const light *self)
     return v3_scale(l->intensity, 2.0f * (float)M_PI * (full + rim));
 }
 
-static const light_type cone_type = { "cone", cone_sample, cone_flux };
+static vec3 cone_peak(const light *self, vec3 *toward)
+{
+    *toward = ((const cone_light *)self)->axis;
+    return ((const cone_light *)self)->intensity;
+}
+
+static const light_type cone_type = { "cone", cone_sample, cone_flux, cone_peak };
 
 const light *light_cone(arena *a, const cone_desc *d, lux_error *err)
 {

@@ -37,6 +37,10 @@ typedef struct light_type {
                     vlight_sample *out);
 
     vec3 (*flux)(const light *self); /* W, in all directions together; INFINITY if far away */
+
+    /* The direction in which it shines strongest, and how strong, W/sr. NULL for a light that is as
+     * strong in all directions, or far away. */
+    vec3 (*peak)(const light *self, vec3 *toward);
 } light_type;
 
 /* The first member of every light. */

@@ -32,6 +32,8 @@ typedef struct luminaire {
     vec3 c0, c90, axis; /* unit: where C0, C90 and gamma 0 point */
     vec3 scale;         /* W/sr for each candela */
     double lumens;      /* cd sr: the integral of the web */
+    vec3 strongest;     /* unit: where the largest candela points */
+    float most;         /* cd: the largest */
     const float *candela;
     table_axis axes[2];         /* rad: C, gamma */
     float gamma_from, gamma_to; /* rad: dark outside of them */
@@ -77,7 +79,15 @@ static vec3 luminaire_flux(const light *self)
     return v3_scale(l->scale, (float)l->lumens);
 }
 
-static const light_type luminaire_type = { "luminaire", luminaire_sample, luminaire_flux };
+static vec3 luminaire_peak(const light *self, vec3 *toward)
+{
+    const luminaire *l = (const luminaire *)self;
+    *toward            = l->strongest;
+    return v3_scale(l->scale, l->most);
+}
+
+static const light_type luminaire_type = { "luminaire", luminaire_sample, luminaire_flux,
+                                           luminaire_peak };
 
 /* ---- making one ------------------------------------------------------------------------- */
 
@@ -137,6 +147,21 @@ static bool make_table(luminaire *l, const photometry *web, arena *a, lux_error 
     return true;
 }
 
+static void find_strongest(luminaire *l, const photometry *web)
+{
+    int at = 0;
+    for (int i = 1; i < web->plane_count * web->gamma_count; i++)
+        if (web->candela[i] > web->candela[at])
+            at = i;
+    double plane = (double)web->plane_deg[at / web->gamma_count] * (M_PI / 180.0);
+    double gamma = (double)web->gamma_deg[at % web->gamma_count] * (M_PI / 180.0);
+    dvec3 across =
+        d3_add(d3_scale(d3_from(l->c0), cos(plane)), d3_scale(d3_from(l->c90), sin(plane)));
+    l->most = web->candela[at];
+    l->strongest =
+        d3_to_float(d3_add(d3_scale(across, sin(gamma)), d3_scale(d3_from(l->axis), cos(gamma))));
+}
+
 /* What a web made by a program may lack. */
 static bool check_web(const photometry *web, lux_error *err)
 {
@@ -168,5 +193,6 @@ const light *light_luminaire(arena *a, const luminaire_desc *d, lux_error *err)
     l->scale    = d->scale;
     l->lumens   = d->web->luminaire_lumens;
     make_frame(l, d->aim, d->rotate);
+    find_strongest(l, d->web);
     return &l->base;
 }

@@ -189,7 +189,7 @@ static double own_half_width(const run_state *s, int item)
     int scrambles = s->scrambles;
     double n = (double)s->r->samples[item] / scrambles, mean = 0.0, squares = 0.0;
     if (!(n > 0.0) || scrambles < 2)
-        return 0.0;
+        return HUGE_VAL;
     for (int r = 0; r < scrambles; r++)
         mean += (double)s->parts[item].sum[r] / (n * scrambles);
     for (int r = 0; r < scrambles; r++) {
@@ -225,7 +225,7 @@ static double against_of(const run_state *s, int item)
 static double ratio_of(const run_state *s, int item)
 {
     double half = s->r->half_width[item];
-    return half > 0.0 ? half / against_of(s, item) : 0.0; /* infinite if that is 0 */
+    return half == 0.0 ? 0.0 : half / against_of(s, item); /* infinite if that is 0 */
 }
 
 /* Half widths of all items: their own, widened where an item seems surer than the others are on
@@ -237,7 +237,7 @@ static void estimate_half_widths(run_state *s)
         double ratio;
         s->r->half_width[i] = own_half_width(s, i);
         ratio               = ratio_of(s, i);
-        if (!(ratio < HUGE_VAL))
+        if (!(ratio < HUGE_VAL)) /* or is no number */
             continue;
         pool += s->r->samples[i] * ratio * ratio;
         count += 1.0;
@@ -282,12 +282,12 @@ static bool judge(run_state *s, lux_error *err)
     s->samples_before = s->samples_predicted = 0.0;
     for (int i = 0; i < items; i++) {
         double n  = s->r->samples[i];
-        ratios[i] = ratio_of(s, i);
+        ratios[i] = is_in_doubt(s, i) ? HUGE_VAL : ratio_of(s, i);
         s->samples_before += n;
         s->samples_predicted += n;
         if (n == 0.0 || s->scrambles < 2)
             s->r->complete = false;
-        if (n == 0.0 || ratios[i] > s->d->accuracy || is_in_doubt(s, i)) {
+        if (n == 0.0 || !(ratios[i] <= s->d->accuracy)) {
             double more = fmin(ratios[i] / s->d->accuracy, 1e3);
             s->r->missed++;
             s->samples_predicted += fmax(n, n * (more * more - 1.0));
@@ -310,6 +310,12 @@ static void halt_if_late(run_state *s)
         __atomic_store_n(&s->halt, true, __ATOMIC_RELAXED);
 }
 
+static void every_item(run_state *s)
+{
+    for (s->active_count = 0; s->active_count < s->d->items; s->active_count++)
+        s->active[s->active_count] = s->active_count;
+}
+
 /* The first round. Where it is long, or time is short, it goes scramble by scramble: once every
  * item has had two, there is a result, however soon time is out. The sums are the same. */
 static bool first_round(run_state *s, lux_error *err)
@@ -323,6 +329,9 @@ static bool first_round(run_state *s, lux_error *err)
         if (!sample_round(s, err))
             return false;
         s->may_cut = s->scrambles >= 2;
+        if (s->may_cut && !judge(s, err)) /* how accurate it is so far */
+            return false;
+        every_item(s);
         if (s->may_cut || progress_stopped(s->d->progress))
             halt_if_late(s);
     }
@@ -337,9 +346,7 @@ static bool run_rounds(run_state *s, lux_error *err)
     s->n                   = (uint32_t)d->first_samples;
     s->samples_predicted   = 16.0 * d->items * SCRAMBLES * s->n;
     s->reached             = (double)NAN;
-    for (s->active_count = 0; s->active_count < d->items; s->active_count++)
-        s->active[s->active_count] = s->active_count;
-
+    every_item(s);
     if (!first_round(s, err))
         return false;
     while (!s->halt && s->r->end != RUN_DONE && 2 * (s->first + s->n) <= MOST_SAMPLES) {

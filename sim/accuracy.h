@@ -56,7 +56,7 @@ typedef struct accuracy_desc {
     int first_samples;  /* a scramble, in the first round; a power of two <= BUNDLE */
     int dark_samples;   /* a scramble, at least, before samples that were all 0 are believed */
     int threads;        /* >= 1 */
-    double deadline;    /* s, on clock_seconds(); INFINITY: none. The first round is finished. */
+    double deadline;    /* s, on clock_seconds(); HUGE_VAL: none. Two sets an item come first. */
     progress *progress; /* may be NULL; its stop ends the work */
 
     /* Fills in values[channel * BUNDLE + i] of sample i, for i < count <= BUNDLE. */
@@ -81,7 +81,7 @@ typedef struct accuracy_result {
     double floor;       /* what `floor` came to */
     double reached;     /* the accuracy that all but the items beyond `needed` have */
     run_end end;        /* RUN_DONE: the share needed is done */
-    bool complete;      /* every item has at least its first round */
+    bool complete;      /* every item has at least two of its SCRAMBLES sets */
 } accuracy_result;
 
 /* Samples until enough is done, or time or the user ends it. False, with *err, if memory is out.

@@ -8,13 +8,31 @@ static const double mebi = 1024.0 * 1024.0;
 
 /* What a grid or view of that many sensors or pixels keeps while it runs, bytes. */
 static double bytes_of_sensors(double sensors) { return sensors * 350.0; }
-static double bytes_of_pixels(double pixels) { return pixels * 450.0; }
+static double bytes_of_pixels(double pixels) { return pixels * 520.0; }
 
 typedef struct findings {
     world_stats world;
     double largest; /* bytes, of the grid or view that needs most */
     double lumens;  /* of all lamps that are not far away */
 } findings;
+
+/* With what the program takes in any case. */
+static double bytes_to_run(const findings *f)
+{
+    return (double)f->world.bytes + f->largest + 8.0 * mebi;
+}
+
+/* "up", "along +x", ...: where the sensors of a plane look. */
+static const char *direction_of(dvec3 n)
+{
+    if (fabs(n.z) > 0.99)
+        return n.z > 0.0 ? "up" : "down";
+    if (fabs(n.x) > 0.99)
+        return n.x > 0.0 ? "along +x" : "along -x";
+    if (fabs(n.y) > 0.99)
+        return n.y > 0.0 ? "along +y" : "along -y";
+    return "aslant";
+}
 
 static bool look_at_grids(const command_context *c, const scene *s, findings *f, bool print,
                           lux_error *err)
@@ -28,8 +46,10 @@ static bool look_at_grids(const command_context *c, const scene *s, findings *f,
             printf("  grid %-20s %8d sensors, of %s\n", r.grid->name, r.sensor_count,
                    r.grid->points);
         else if (print)
-            printf("  grid %-20s %8d sensors, %d x %d\n", r.grid->name, r.sensor_count, r.columns,
-                   r.rows);
+            printf("  grid %-20s %8d sensors, %d x %d, %.3g x %.3g m apart, looking %s\n",
+                   r.grid->name, r.sensor_count, r.columns, r.rows,
+                   d3_length(r.grid->u) / r.columns, d3_length(r.grid->v) / r.rows,
+                   direction_of(r.sensors[0].normal));
     }
     return true;
 }
@@ -113,7 +133,7 @@ static void print_json(const scene *s, const findings *f)
     json_number(stdout, f->lumens);
     printf(",\"grids\":%d,\"views\":%d,\"memory_bytes\":", s->study->grid_count,
            s->study->view_count);
-    json_number(stdout, (double)f->world.bytes + f->largest);
+    json_number(stdout, bytes_to_run(f));
     puts("}");
 }
 
@@ -127,6 +147,8 @@ static int check_command(const command_context *c, lux_error *err)
         if (isfinite(s->light_info[i].lumens))
             f.lumens += s->light_info[i].lumens;
     bool print = !c->line->json;
+    if (!look_at_grids(c, s, &f, false, err) || !look_at_views(s, &f, false, err))
+        return exit_code_of(err, true); /* before anything is called good */
     if (print) {
         print_world(s, &f);
         print_materials(s);
@@ -139,8 +161,7 @@ static int check_command(const command_context *c, lux_error *err)
     if (!look_at_grids(c, s, &f, print, err) || !look_at_views(s, &f, print, err))
         return exit_code_of(err, true);
     if (print)
-        printf("memory     about %.1f MiB to run\n",
-               ((double)f.world.bytes + f.largest) / mebi + 8.0);
+        printf("memory     about %.1f MiB to run\n", bytes_to_run(&f) / mebi);
     else
         print_json(s, &f);
     return EXIT_DONE;

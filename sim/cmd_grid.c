@@ -34,9 +34,12 @@ static void print_table(const scene *s, const grid_result *r, bool first)
     grid_requirement asked[MOST_REQUIREMENTS];
     int count = grid_requirements(r, asked);
     for (int i = 0; i < count; i++)
-        printf("  %-10s asked %g%s%s, got %.4g%s%s: %s\n", asked[i].name, asked[i].asked,
+        printf("  %-10s asked %g%s%s, got %.4g%s%s: %s%s\n", asked[i].name, asked[i].asked,
                asked[i].unit[0] ? " " : "", asked[i].unit, asked[i].got,
-               asked[i].unit[0] ? " " : "", asked[i].unit, asked[i].met ? "met" : "MISSED");
+               asked[i].unit[0] ? " " : "", asked[i].unit, asked[i].met ? "met" : "MISSED",
+               fabs(asked[i].got - asked[i].asked) <= r->worst_half_width * asked[i].got
+                   ? " (too close to be sure: ask for more accuracy)"
+                   : "");
     if (r->end != RUN_DONE)
         printf("  accuracy: %d of %d sensors are not within %g %% yet\n", r->missed,
                r->sensor_count, 100.0 * r->asked);
@@ -65,6 +68,8 @@ static void print_json(const grid_result *r, bool first)
     json_field("average_half_width_lx", r->average_half_width);
     json_field("worst_half_width_percent", 100.0 * r->worst_half_width);
     json_field("sensors_missed", r->missed);
+    if (r->end == RUN_INTERRUPTED)
+        fputs(",\"partial\":true", stdout);
     fputs(",\"requirements\":[", stdout);
     grid_requirement asked[MOST_REQUIREMENTS];
     int count = grid_requirements(r, asked);
@@ -82,10 +87,9 @@ static void print_json_end(const scene *s, const command_context *c, const total
     printf("%s]", t->printed ? "" : "{\"grids\":[");
     json_field("seconds", t->seconds);
     json_field("rays", (double)t->rays);
-    printf(",\"effects\":[%s%s]", s->light_count ? "\"shadows\"" : "",
-           c->line->direct_only ? ""
-           : s->light_count     ? ",\"interreflection\""
-                                : "\"interreflection\"");
+    bool back = s->reflects && !c->line->direct_only && (s->light_count || s->glows);
+    printf(",\"effects\":[%s%s%s]", s->light_count ? "\"shadows\"" : "",
+           s->light_count && back ? "," : "", back ? "\"interreflection\"" : "");
     printf(",\"interval_valid\":%s}\n", t->interval_valid ? "true" : "false");
 }
 
@@ -120,6 +124,11 @@ static int run_one(const command_context *c, const scene *s, int index, totals *
             print_json(&r, t->printed == 0);
         else
             print_table(s, &r, t->printed == 0);
+        if (s->light_count && r.maximum == 0.0)
+            notice_add(c->notices,
+                       "grid %s: no light arrives at all: are its sensors, or the lamps, "
+                       "outside of the room or inside something solid?",
+                       r.grid->name);
         t->printed++;
         t->seconds += r.seconds;
         t->rays += r.rays;

@@ -19,6 +19,8 @@ static void print_view(const command_context *c, const view_result *r, const cha
         json_string(stdout, exr);
         fputs(",\"png\":", stdout);
         json_string(stdout, png);
+        if (r->end == RUN_INTERRUPTED)
+            fputs(",\"partial\":true", stdout);
         printf(",\"interval_valid\":%s", r->left_to_chance ? "false" : "true");
         printf(",\"seconds\":%.9g,\"rays\":%lld}", r->seconds, (long long)r->rays);
         return;
@@ -60,6 +62,11 @@ static int run_view(const command_context *c, const scene *s, int index, totals 
             code = exit_code_of(err, false);
         else
             print_view(c, &r, exr, png, all->printed++ == 0);
+        if (code == EXIT_DONE && s->light_count && r.log_average == 0.0)
+            notice_add(c->notices,
+                       "view %s: all is black: surfaces are opaque from both sides; is the "
+                       "eye outside of the room, or inside something solid?",
+                       v->name);
         if (code == EXIT_DONE)
             code = command_end(r.end, "view", v->name, err);
     }

@@ -12,7 +12,8 @@
 #include <float.h>
 #include <string.h>
 
-enum { SAMPLED, GLOW, CHANNELS }; /* of accuracy_run(): all that is sampled, what of it is direct */
+/* Of accuracy_run(): all that is sampled, what of it is direct, what sees a reflecting surface. */
+enum { SAMPLED, GLOW, MET, CHANNELS };
 
 typedef struct thread_scratch {
     direct_scratch *direct;
@@ -146,6 +147,7 @@ static void sample_sensors(void *context, int thread, const sample_id *ids, int 
         vec3 glow                    = { b->glow[0][i], b->glow[1][i], b->glow[2][i] };
         vec3 rest                    = { b->indirect[0][i], b->indirect[1][i], b->indirect[2][i] };
         float straight               = (float)LUMENS_PER_WATT * rgb_luminance(glow);
+        values[MET * BUNDLE + i]     = b->met[i];
         values[GLOW * BUNDLE + i]    = straight;
         values[SAMPLED * BUNDLE + i] = straight + (float)LUMENS_PER_WATT * rgb_luminance(rest);
     }
@@ -233,8 +235,11 @@ static bool sample_rest(arena *a, grid_run_state *g, grid_result *r, lux_error *
         r->indirect[k]    = maintenance * fmax(all - glow, 0.0);
         r->illuminance[k] = r->direct[k] + r->indirect[k];
         r->half_width[k]  = maintenance * got.half_width[k];
+        r->in_doubt += all == 0.0 && got.mean[MET * r->sensor_count + k] > 0.0;
     }
-    r->missed  = got.missed;
+    r->missed = got.missed;
+    if (r->in_doubt && !r->left_to_chance && !g->o->direct_only)
+        r->left_to_chance = "some sensors see surfaces from where no sample found any light back";
     r->end     = got.end;
     r->reached = got.reached;
     return true;

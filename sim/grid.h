@@ -34,6 +34,7 @@ typedef struct grid_result {
     double worst_half_width;    /* relative to max(illuminance, a tenth of the average) */
     double asked;               /* the accuracy that was asked for */
     int missed;                 /* sensors whose half width is beyond it */
+    int in_doubt;               /* that see surfaces, and by way of them no light at all */
     double reached;             /* the accuracy that every sensor has */
     run_end end;                /* why it ended; what is here is complete all the same */
     const char *left_to_chance; /* why the intervals are not valid; NULL: they are */

@@ -61,8 +61,7 @@ bool grid_write_exr(const char *path, const scene *s, const grid_result *r, noti
             { "lux4:version", ATTRIBUTE_STRING, LUX4_VERSION, 0 },
             { "lux4:interval", ATTRIBUTE_STRING, r->left_to_chance ? r->left_to_chance : "valid",
               0 },
-            { "lux4:partial", ATTRIBUTE_STRING, run_end_text(r->end),
-              0 }, /* left out if it is not */
+            { "lux4:partial", ATTRIBUTE_STRING, "interrupted", 0 }, /* the last: left out else */
         };
         int count = sizeof attributes / sizeof *attributes;
         image im  = { .width           = r->columns,

@@ -34,8 +34,8 @@ typedef enum lux4_code {
 } lux4_code;
 
 typedef struct lux4_error {
-    lux4_code code;
     char text[480]; /* one line: file, line and column, what is wrong, what was expected */
+    lux4_code code;
 } lux4_error;
 
 /* "0.1.0" */
@@ -58,11 +58,11 @@ const char *lux4_view_name(const lux4 *study, int index);
 
 /* How to run; zeros (or NULL for all of it) are the defaults. */
 typedef struct lux4_options {
-    double accuracy;           /* 0.02 for 2 %; 0: the study's or else 2 % (grids), 10 % (views) */
-    double seconds;            /* stop after that time with what there is; 0: no limit */
-    int threads;               /* 0: as many as there are processors */
-    uint32_t seed;             /* another seed, another set of random samples; 0: 1 */
-    bool direct_only;          /* leave interreflection out */
+    double accuracy;  /* 0.02 for 2 %; 0: the study's or else 2 % for grids, 10 % for views */
+    double seconds;   /* stop after that time with what there is; 0: no limit */
+    int threads;      /* 0: as many as there are processors */
+    uint32_t seed;    /* another seed, another set of random samples; 0: 1 */
+    bool direct_only; /* leave interreflection out */
     const volatile bool *stop; /* NULL, or the run ends early once it is true */
 
     /* NULL, or called by one thread at a time: share done in [0, 1], accuracy so far or NAN. */

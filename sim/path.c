@@ -244,6 +244,18 @@ static void go_on(path_tracer *t)
     t->alive = kept;
 }
 
+/* Which paths see something that could give light back. */
+static void note_what_is_met(path_tracer *t)
+{
+    for (int k = 0; k < packets_of(t); k++) {
+        vmask active = (vlane_index() + k * LANES) < t->alive;
+        vint which   = vload_int(t->material + k * LANES);
+        vfloat back  = vrgb_luminance(materials_albedo(t->s->materials, which, active));
+        for (int bits = vbits(active & (back > 0.0f)); bits; bits &= bits - 1)
+            t->b->met[t->id[k * LANES + __builtin_ctz((unsigned)bits)]] = 1.0f;
+    }
+}
+
 /* What shines by itself where the paths have come to. */
 static void add_glow(path_tracer *t, bool straight)
 {
@@ -264,6 +276,7 @@ static void begin(path_tracer *t, path_bundle *b)
     memset(b->lamp, 0, sizeof b->lamp);
     memset(b->glow, 0, sizeof b->glow);
     memset(b->indirect, 0, sizeof b->indirect);
+    memset(b->met, 0, sizeof b->met);
     size_t bytes = (size_t)b->count * sizeof(float);
     memcpy(t->x, b->x, bytes), memcpy(t->y, b->y, bytes), memcpy(t->z, b->z, bytes);
     memcpy(t->nx, b->nx, bytes), memcpy(t->ny, b->ny, bytes), memcpy(t->nz, b->nz, bytes);
@@ -289,6 +302,8 @@ void path_trace(path_tracer *t, path_bundle *b, bool lamps, bool bounce)
         draw_directions(t, depth == 0);
         go_on(t);
         add_glow(t, depth == 0);
+        if (depth == 0)
+            note_what_is_met(t);
         if (!bounce)
             break;
     }

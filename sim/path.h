@@ -30,6 +30,7 @@ typedef struct path_bundle {
     float lamp[3][PATHS];     /* W/m^2 straight from lamps, if asked for */
     float glow[3][PATHS];     /* W/m^2 straight from glowing surfaces */
     float indirect[3][PATHS]; /* W/m^2 after at least one reflection */
+    float met[PATHS];         /* 1 if the first ray met a surface that reflects, else 0 */
 } path_bundle;
 
 typedef struct path_tracer path_tracer; /* scratch of one thread */

@@ -107,6 +107,6 @@ const scene *scene_new(arena *a, const study *from, int threads, notices *n, lux
     s->camera_count   = (int)b.cameras.count;
     s->cameras        = b.cameras.items;
     say_what_surfaces_do(&b, s);
-    s->near_lamps = scene_near_lamps(s, n);
+    s->small_patches = scene_small_patches(s, n);
     return s;
 }

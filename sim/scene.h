@@ -56,7 +56,7 @@ typedef struct scene {
     bool reflects;     /* some surface does */
     bool glows;        /* some surface emits light */
     double glow_share; /* those that do, of the area of all */
-    int near_lamps;    /* lamps that shine on a surface beside them */
+    int small_patches; /* lamps that light a patch too small for samples to find reliably */
 } scene;
 
 /* The light that samples may miss without an interval telling, in words; NULL if there is none. */

@@ -127,31 +127,39 @@ static bool glows(const gltf_material *m)
     return m->emission.x > 0.0f || m->emission.y > 0.0f || m->emission.z > 0.0f;
 }
 
-static void add_area(scene_build *b, const gltf *g, const mesh *m, const transform *place)
+static bool any_glows(const scene_build *b)
+{
+    bool any = false;
+    for (int i = 0; i < b->study->scene_count; i++)
+        for (uint32_t m = 0; m < b->files[i]->material_count; m++)
+            any |= glows(&b->files[i]->materials[m]);
+    return any;
+}
+
+/* Of a mesh in one place, which counts `copies` times. */
+static void add_area(scene_build *b, const gltf *g, const mesh *m, const transform *place,
+                     int copies)
 {
     for (uint32_t t = 0; t < m->triangle_count; t++) {
         dvec3 p[3];
         for (int c = 0; c < 3; c++)
             p[c] = transform_point(place, d3_from(m->positions[m->corners[3 * t + (uint32_t)c]]));
-        double area = 0.5 * d3_length(d3_cross(d3_sub(p[1], p[0]), d3_sub(p[2], p[0])));
+        double area = copies * 0.5 * d3_length(d3_cross(d3_sub(p[1], p[0]), d3_sub(p[2], p[0])));
         b->area += area;
         if (glows(&g->materials[m->material ? m->material[t] : 0]))
             b->glowing_area += area;
     }
 }
 
-/* Areas are asked for only where something may glow. */
+/* All copies of a scene entry are of one size. */
 static void add_areas(scene_build *b, int i)
 {
     const gltf *g        = b->files[i];
     const study_scene *s = &b->study->scenes[i];
-    bool any             = false;
-    for (uint32_t m = 0; m < g->material_count; m++)
-        any |= glows(&g->materials[m]);
-    for (uint32_t k = 0; any && k < g->placement_count; k++) {
-        transform copy = scene_copy_place(s, 0);
-        transform to   = transform_product(&copy, &g->placements[k].place);
-        add_area(b, g, &g->meshes[g->placements[k].mesh].triangles, &to);
+    transform copy       = scene_copy_place(s, 0);
+    for (uint32_t k = 0; k < g->placement_count; k++) {
+        transform to = transform_product(&copy, &g->placements[k].place);
+        add_area(b, g, &g->meshes[g->placements[k].mesh].triangles, &to, s->at_count);
     }
 }
 
@@ -167,8 +175,10 @@ bool build_bounds(scene_build *b)
         grow(&b->low, &b->high, r);
         b->area += 2.0 * (r.x * r.y + r.y * r.z + r.z * r.x);
     }
+    bool glow = any_glows(b); /* areas are asked for only then */
     for (int i = 0; i < b->study->scene_count; i++) {
-        add_areas(b, i);
+        if (glow)
+            add_areas(b, i);
         if (scene_first_use(b, i) == i && !grow_by_file(b, i))
             return false;
     }

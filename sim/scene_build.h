@@ -40,7 +40,8 @@ bool build_bounds(scene_build *b);    /* scene_bounds.c: times, box, centre, are
 world *build_world(scene_build *b, int threads);
 bool build_lights(scene_build *b); /* scene_lights.c */
 
-/* How many lamps shine on a surface beside them, of which the user is told (scene_chance.c). */
-int scene_near_lamps(const scene *s, notices *n);
+/* How many lamps light patches too small for samples to find, of which the user is told
+ * (scene_chance.c). */
+int scene_small_patches(const scene *s, notices *n);
 
 #endif

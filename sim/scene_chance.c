@@ -1,90 +1,169 @@
-/* sim/scene_chance.c -- what samples miss: first, what lamps do that are near to a surface.
+/* sim/scene_chance.c -- light that samples rarely find: bright patches that are small.
  *
- * A lamp at distance h from a wall lights a patch of it some h across with all that it sheds on
- * that side, and the patch is a source of its own. Paths meet it with a probability of some h^2
- * over the area of all surfaces: in a room of 4 m by 3 m by 2.5 m and reflectance 0.5, of a lamp
- * 1 cm under the ceiling, 41.0 lx +- 5 % were found of 47.6 lx. n lamps have n such patches, which
- * matter less each and are met as often together: then h may be smaller by the root of n.
+ * What a lamp sheds on a surface beside it comes back from a patch, and so does the spot that a
+ * narrow beam makes anywhere. Paths meet a patch with a probability of about its share of all that
+ * can be seen; a lamp 1 cm under a ceiling makes one of some 2 pi cm^2. n lamps have n such
+ * patches, which matter less each and are met as often together: then they may be smaller by n.
  */
 #include "core/color.h"
 #include "sim/scene_build.h"
 
-enum { PACKETS = 128 / LANES };
+#include <stdlib.h>
+
+enum { PACKETS = 128 / LANES, RAYS = PACKETS * LANES };
 
 /* Glowing surfaces are met by chance, not sought: where they are less of all surfaces than this,
  * samples may miss them all. */
 static const double least_glow_share = 0.01;
 
-static const double near_share = 0.01; /* of the diagonal of the scene's box */
-static const double flux_share = 0.01; /* of a lamp's light: less than that does not matter */
+static const double near_share = 0.015; /* of how far the lamp sees */
+static const double flux_share = 0.01;  /* of a lamp's light: less than that does not matter */
+
+/* What surrounds a lamp, by rays evenly in all directions. */
+typedef struct surroundings {
+    float distance[RAYS]; /* m; INFINITY: nothing is there */
+    float back[RAYS];     /* the reflectance of what is there, as luminance */
+    float strength[RAYS]; /* the lamp's intensity that way, as luminance */
+} surroundings;
 
 /* Directions that lie evenly on the sphere, by the golden section. */
-static void even_directions(vvec3 to[PACKETS])
+static vvec3 even_directions(int first)
 {
     const double golden = 2.39996322972865332; /* pi (3 - sqrt 5) */
-    for (int k = 0; k < PACKETS; k++) {
-        float x[LANES], y[LANES], z[LANES];
-        for (int i = 0; i < LANES; i++) {
-            double n = k * LANES + i, up = 1.0 - (2.0 * n + 1.0) / (PACKETS * LANES);
-            double across = sqrt(1.0 - up * up);
-            x[i]          = (float)(across * cos(golden * n));
-            y[i]          = (float)(across * sin(golden * n));
-            z[i]          = (float)up;
-        }
-        to[k] = (vvec3){ vload(x), vload(y), vload(z) };
+    float x[LANES], y[LANES], z[LANES];
+    for (int i = 0; i < LANES; i++) {
+        double n = first + i, up = 1.0 - (2.0 * n + 1.0) / RAYS;
+        double across = sqrt(1.0 - up * up);
+        x[i]          = (float)(across * cos(golden * n));
+        y[i]          = (float)(across * sin(golden * n));
+        z[i]          = (float)up;
+    }
+    return (vvec3){ vload(x), vload(y), vload(z) };
+}
+
+static void look_around(const scene *s, const light *l, vec3 at, surroundings *out)
+{
+    for (int k = 0; k < RAYS; k += LANES) {
+        vray ray     = { vspread(at), even_directions(k), vsplat(INFINITY) };
+        vmask active = ALL_LANES;
+        vhit hit;
+        vsurface there;
+        vlight_sample lamp;
+        world_first_hit(s->world, &ray, &active, 1, RAYS_INCOHERENT, &hit);
+        vmask met = hit.instance >= 0;
+        world_surface(s->world, &hit, met, &there);
+        vrgb albedo = materials_albedo(s->materials, there.material, met);
+
+        /* Irradiance at 1 m is the intensity that way */
+        vvec3 beside  = vadd(vspread(at), ray.direction);
+        vfloat middle = vsplat(0.5f);
+        vmask lit     = light_sample(l, &beside, middle, middle, active, &lamp);
+        vstore(out->distance + k, hit.distance);
+        vstore(out->back + k, vrgb_luminance(albedo));
+        vstore(out->strength + k, vkeep(lit, vrgb_luminance(lamp.e)));
     }
 }
 
-/* Whether a worthwhile share of what lamp l sheds from `at` falls on surfaces within `reach`. */
-static bool shines_on_near(const scene *s, const light *l, vec3 at, float reach)
+static int compare(const void *a, const void *b)
 {
-    vvec3 directions[PACKETS];
-    vray rays[PACKETS];
-    vmask active[PACKETS], blocked[PACKETS];
-    double all = 0.0, near = 0.0;
-    even_directions(directions);
-    for (int k = 0; k < PACKETS; k++) {
-        rays[k]   = (vray){ vspread(at), directions[k], vsplat(reach) };
-        active[k] = (vlane_index() >= 0);
-    }
-    world_any_hit(s->world, rays, active, PACKETS, RAYS_INCOHERENT, blocked);
+    float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
 
-    for (int k = 0; k < PACKETS; k++) { /* its irradiance at 1 m is its intensity that way */
-        vlight_sample sample;
-        vvec3 there   = vadd(vspread(at), directions[k]);
-        vfloat middle = vsplat(0.5f);
-        vmask lit     = light_sample(l, &there, middle, middle, active[k], &sample);
-        vfloat strong = vkeep(lit, vrgb_luminance(sample.e));
-        for (int i = 0; i < LANES; i++) {
-            all += (double)lane(strong, i);
-            near += vbits(blocked[k]) >> i & 1 ? (double)lane(strong, i) : 0.0;
-        }
+/* How far the lamp sees, m: but for the farthest twentieth of what it sees. 0: it sees nothing. */
+static double view_of(const surroundings *around)
+{
+    float seen[RAYS];
+    int count = 0;
+    for (int i = 0; i < RAYS; i++)
+        if (around->distance[i] < INFINITY)
+            seen[count++] = around->distance[i];
+    qsort(seen, (size_t)count, sizeof *seen, compare);
+    return count ? (double)seen[(count - 1) * 19 / 20] : 0.0;
+}
+
+/* Whether a worthwhile share of its light comes back from surfaces within reach. */
+static bool shines_on_near(const surroundings *around, double reach)
+{
+    double all = 0.0, near = 0.0;
+    for (int i = 0; i < RAYS; i++) {
+        all += (double)around->strength[i];
+        if ((double)around->distance[i] < reach)
+            near += (double)around->strength[i] * (double)around->back[i];
     }
     return near > flux_share * all;
 }
 
-int scene_near_lamps(const scene *s, notices *n)
+/* Whether its beam is so narrow that the spot it makes is as small as the patch of a lamp within
+ * reach of a surface: solid angle flux / peak, times distance^2, against 2 pi reach^2. */
+static bool makes_small_spot(const scene *s, const light *l, vec3 at, double reach)
 {
-    dvec3 across   = d3_sub(s->high, s->low);
-    double reach   = near_share * d3_length(across) / sqrt(fmax(s->light_count, 1));
+    vec3 toward;
+    if (!l->type->peak)
+        return false;
+    double peak = (double)rgb_luminance(l->type->peak(l, &toward));
+    double flux = (double)rgb_luminance(light_flux(l));
+    if (!(peak > 0.0))
+        return false;
+    vray ray     = { vspread(at), vspread(toward), vsplat(INFINITY) };
+    vmask active = vlane_index() == 0;
+    vhit hit;
+    vsurface there;
+    world_first_hit(s->world, &ray, &active, 1, RAYS_COHERENT, &hit);
+    vmask met = active & (hit.instance >= 0);
+    world_surface(s->world, &hit, met, &there);
+    float back = lane(vrgb_luminance(materials_albedo(s->materials, there.material, met)), 0);
+    double d   = vany(met) ? (double)lane(hit.distance, 0) : 0.0;
+    return back > 0.0f && flux / peak * d * d < 2.0 * M_PI * reach * reach;
+}
+
+/* A plain room is closed: light that meets nothing has left it, from a lamp in its very walls. */
+static void tell_lost_light(const scene *s, const scene_light *info, const surroundings *around,
+                            notices *n)
+{
+    double all = 0.0, lost = 0.0;
+    for (int i = 0; i < RAYS; i++) {
+        all += (double)around->strength[i];
+        lost += around->distance[i] < INFINITY ? 0.0 : (double)around->strength[i];
+    }
+    dvec3 size = s->study->room.size, at = info->at;
+    bool inside = at.x >= 0.0 && at.x <= size.x && at.y >= 0.0 && at.y <= size.y && at.z >= 0.0 &&
+                  at.z <= size.z;
+    if (s->study->room.given && inside && lost > flux_share * all)
+        notice_add(
+            n,
+            "%s: about %.0f %% of the light of `%s` at (%g, %g, %g) m leaves the room: it lies in "
+            "a wall, floor or ceiling; 1 cm inside it would not",
+            s->study->path, 100.0 * lost / all, info->name, info->at.x, info->at.y, info->at.z);
+}
+
+int scene_small_patches(const scene *s, notices *n)
+{
     int count      = 0;
     dvec3 first_at = { 0, 0, 0 };
-    if (!(s->low.x <= s->high.x)) /* no surface at all */
-        return 0;
     for (int i = 0; i < s->light_count; i++) {
         const scene_light *info = &s->light_info[i];
-        if (!isfinite(info->lumens) ||
-            !shines_on_near(s, s->lights[i], scene_place(s, info->at), (float)reach))
+        if (!isfinite(info->lumens))
+            continue;
+        surroundings around;
+        vec3 at = scene_place(s, info->at);
+        look_around(s, s->lights[i], at, &around);
+        tell_lost_light(s, info, &around, n);
+        double reach = near_share * view_of(&around) / sqrt(s->light_count);
+        if (!s->reflects ||
+            (!shines_on_near(&around, reach) && !makes_small_spot(s, s->lights[i], at, reach)))
             continue;
         if (count++ == 0)
             first_at = info->at;
     }
     if (count)
-        notice_add(n,
-                   "%s: %d light%s, first that at (%g, %g, %g) m, shine%s on a surface within %.2g "
-                   "m: what comes back from there is found too rarely, intervals are not valid",
-                   s->study->path, count, count > 1 ? "s" : "", first_at.x, first_at.y, first_at.z,
-                   count > 1 ? "" : "s", reach);
+        notice_add(
+            n,
+            "%s: %d light%s, first that at (%g, %g, %g) m, shine%s on a surface close by, or on a "
+            "small spot: what comes back from there is found rarely, intervals are not valid "
+            "(more distance helps)",
+            s->study->path, count, count > 1 ? "s" : "", first_at.x, first_at.y, first_at.z,
+            count > 1 ? "" : "s");
     return count;
 }
 
@@ -92,7 +171,7 @@ const char *scene_left_to_chance(const scene *s, bool direct_only)
 {
     if (s->glows && s->glow_share < least_glow_share)
         return "glowing surfaces are small and met by chance, which samples may miss";
-    if (!direct_only && s->reflects && s->near_lamps > 0)
-        return "lamps light surfaces beside them, from where samples rarely find light back";
+    if (!direct_only && s->reflects && s->small_patches > 0)
+        return "lamps light small patches of surface, from where samples rarely find light back";
     return NULL;
 }

@@ -82,7 +82,11 @@ static const photometry *web_of(scene_build *b, int i, const photometry **webs)
     for (int j = 0; j < i; j++)
         if (!strcmp(all[j].photometry, all[i].photometry))
             return webs[j];
-    return photometry_read(b->a, all[i].photometry, b->notices, b->err);
+    lux_error why         = { 0 };
+    const photometry *web = photometry_read(b->a, all[i].photometry, b->notices, &why);
+    if (!web && why.code == ERR_IO) /* the study names what is not there */
+        return study_failed(b->study, all[i].where, b->err, ERR_IO, "%s", why.text);
+    return web ? web : failed(b->err, why.code, "%s", why.text);
 }
 
 static bool add_luminaires(scene_build *b)

@@ -41,7 +41,7 @@ void program_expect(int code, const program_desc *d, program_result *r);
     program_fails(code_, says_, &(program_desc){ .folder = (folder_), .words = { __VA_ARGS__ } })
 void program_fails(int code, const char *says, const program_desc *d);
 
-/* Fails the test unless stderr is one line, "lux4: ...", that holds `says`. */
+/* Fails the test unless stderr is one line, "lux4: ...", that holds `says`, behind any warnings. */
 void assert_one_line(const program_result *r, const char *says);
 
 /* The root of the project, and of what was built: both absolute. */

@@ -13,6 +13,10 @@ static int photometry_command(const command_context *c, lux_error *err)
                              .write     = c->line->write,
                              .overwrite = c->line->place.overwrite };
     bool good = photometry_report(stdout, c->line->files, c->line->file_count, &o, c->notices, err);
+    if (good && !o.json && o.plot)
+        printf("written: %s\n", o.plot);
+    if (good && !o.json && o.write)
+        printf("written: %s\n", o.write);
     return good ? EXIT_DONE : exit_code_of(err, true);
 }
 

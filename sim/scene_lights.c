@@ -53,6 +53,15 @@ static void warn_if_outside(const scene_build *b, study_where where, const char 
                room ? "room" : "scene", low.x, low.y, low.z, high.x, high.y, high.z);
 }
 
+/* 50 for half is a likely slip. */
+static void warn_if_brightened(const scene_build *b, study_where where, double dimming)
+{
+    if (dimming > 1.0)
+        notice_add(b->notices,
+                   "%s:%d:%d: `dimming: %g` is more than the full light (0.5 is half of it)",
+                   b->study->path, where.line, where.column, dimming);
+}
+
 /* ---- the study's own --------------------------------------------------------------------------
  */
 
@@ -102,6 +111,7 @@ static bool add_luminaires(scene_build *b)
         webs[i] = web_of(b, i, webs);
         if (!webs[i] || !luminaire_factor(b, l, webs[i], &factor))
             return false;
+        warn_if_brightened(b, l->where, l->emission.dimming);
         const char *file =
             strrchr(l->photometry, '/') ? strrchr(l->photometry, '/') + 1 : l->photometry;
         const char *name = l->name ? l->name : file;
@@ -125,6 +135,7 @@ static bool add_points(scene_build *b)
     for (int i = 0; i < b->study->light_count; i++) {
         const study_light *l = &b->study->lights[i];
         double intensity     = l->intensity * l->emission.dimming;
+        warn_if_brightened(b, l->where, l->emission.dimming);
         for (int k = 0; k < l->at_count; k++) {
             point_desc d = { .position  = d3_to_float(d3_sub(l->at[k], b->centre)),
                              .intensity = watts(l->emission.color, intensity) };

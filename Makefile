@@ -204,6 +204,7 @@ install: all $B/public/liblux4.a
 	install -m 644 $B/public/liblux4.a $(TO)/lib
 	install -m 644 sim/lux4.h $(TO)/include/lux4
 	install -m 644 sim/lux4.1 $(TO)/share/man/man1
+	install -m 644 STUDY.md $(TO)/share/lux4
 	install -m 644 $(wildcard data/office/*.yaml data/office/*.glb data/office/*.ies data/office/*.ldt) $(TO)/share/lux4/office
 	@printf '%s\n' 'prefix=$(PREFIX)' 'Name: lux4' 'Description: lighting-design simulation' 'Version: $(VERSION)' \
 	  'Cflags: -I$${prefix}/include/lux4' 'Requires.private: $(PKGS)' \

@@ -1,6 +1,7 @@
 /* sim/main.c -- the program: finds the command, runs it, and is alone in printing its errors. */
 #include "sim/accuracy.h"
 #include "sim/command.h"
+#include "sim/help_study.h"
 
 #include <errno.h>
 #include <signal.h>
@@ -38,7 +39,9 @@ static void print_usage(FILE *to)
           to);
     for (int i = 0; i < COMMANDS; i++)
         fprintf(to, "  %-12s %s\n", commands[i]->name, commands[i]->summary);
-    fputs("\nlux4 help COMMAND, or lux4 COMMAND --help, tells more. lux4 --version\n", to);
+    fputs("\nlux4 help COMMAND, or lux4 COMMAND --help, tells more; lux4 help study: what a study\n"
+          "may hold. lux4 --version\n",
+          to);
 }
 
 static void print_help(const command *c)
@@ -67,6 +70,10 @@ static int help(int count, char **words)
 {
     if (count == 0) {
         print_usage(stdout);
+        return EXIT_DONE;
+    }
+    if (!strcmp(words[0], "study")) {
+        help_study(stdout);
         return EXIT_DONE;
     }
     const command *c = find_command(words[0]);

@@ -61,8 +61,7 @@ const char *run_end_text(run_end end)
     return end == RUN_DONE ? NULL : texts[end];
 }
 
-/* ---- one round: samples ------------------------------------------------------------------------
- */
+/* ---- one round: samples ---------------------------------------------------------------------- */
 
 /* Adds the values of samples begin .. end - 1, which are of one scramble of one item. */
 static void add_set(run_state *s, const float *values, int begin, int end, double *total,
@@ -174,8 +173,7 @@ static bool sample_round(run_state *s, lux_error *err)
     return good;
 }
 
-/* ---- between rounds: how good it is ------------------------------------------------------------
- */
+/* ---- between rounds: how good it is ---------------------------------------------------------- */
 
 static double value_of(const run_state *s, int item)
 {

@@ -15,8 +15,7 @@ typedef struct totals {
     int code; /* EXIT_INACCURATE once a grid was */
 } totals;
 
-/* ---- as a table
- * ------------------------------------------------------------------------------------ */
+/* ---- as a table ------------------------------------------------------------------------------ */
 
 static void print_table(const scene *s, const grid_result *r, bool first)
 {
@@ -47,8 +46,7 @@ static void print_table(const scene *s, const grid_result *r, bool first)
         printf("  interval not valid: %s\n", r->left_to_chance);
 }
 
-/* ---- as JSON
- * --------------------------------------------------------------------------------------- */
+/* ---- as JSON --------------------------------------------------------------------------------- */
 
 static void json_field(const char *name, double value)
 {
@@ -93,8 +91,7 @@ static void print_json_end(const scene *s, const command_context *c, const total
     printf(",\"interval_valid\":%s}\n", t->interval_valid ? "true" : "false");
 }
 
-/* ---- the command
- * ------------------------------------------------------------------------------------- */
+/* ---- the command ----------------------------------------------------------------------------- */
 
 static bool write_files(const command_context *c, const scene *s, const grid_result *r,
                         lux_error *err)

@@ -8,21 +8,23 @@
 typedef struct option {
     const char *name, *value; /* value: NULL if it takes none */
     const char *help;         /* NULL: of the contract, and not built yet */
+    bool own;                 /* of some commands; all others are taken by every command, so that
+                                 scripts may pass them, though help names them only where they count */
 } option;
 
 /* Every option that users are promised. Those that are not built yet are refused by name. */
 static const option options[] = {
     { "-o", "DIR", "put the results there (default: out/ beside the study)" },
     { "--overwrite", NULL, "replace results that are there already" },
-    { "--accuracy", "P%", "95 % of the results within P of the truth (grid 2%, render 10%)" },
+    { "--accuracy", "P%", "how near to the truth (grids: the study's, or else 2%; views: 10%)" },
     { "--time", "SECONDS", "stop after that time with what there is (exit code 3 if too early)" },
     { "--threads", "N", "run on N threads (default: all processors)" },
     { "--seed", "N", "another number, another set of random samples (default 1)" },
     { "--direct-only", NULL, "leave interreflection out" },
     { "--half", NULL, "write 16-bit floats" },
     { "--exposure", "EV", "brighter or darker preview, in stops" },
-    { "--plot", "FILE.svg", "polar diagram, as data sheets have it" },
-    { "--write", "FILE", "convert to .ies or .ldt" },
+    { "--plot", "FILE.svg", "polar diagram, as data sheets have it", true },
+    { "--write", "FILE", "convert to .ies or .ldt", true },
     { "--json", NULL, "results as one JSON object on stdout" },
     { "--quiet", NULL, "no progress bar, no warnings" },
     { "--groups", NULL, NULL },
@@ -57,8 +59,7 @@ void command_options_print(FILE *to, const command *c)
     }
 }
 
-/* ---- values
- * -------------------------------------------------------------------------------------- */
+/* ---- values ---------------------------------------------------------------------------------- */
 
 static bool number(const char *option_name, const char *text, double low, double high,
                    const char *wanted, double *out, lux_error *err)
@@ -134,8 +135,7 @@ static bool take(command_line *l, const char *name, const char *value, lux_error
     return true;
 }
 
-/* ---- words
- * --------------------------------------------------------------------------------------- */
+/* ---- words ----------------------------------------------------------------------------------- */
 
 static const option *find(const char *word, size_t length)
 {
@@ -157,7 +157,7 @@ static bool read_option(const command *c, int count, char *const *words, int *at
                       c->name);
     if (!o->help)
         return failed(err, ERR_UNSUPPORTED, "%s is not supported yet", o->name);
-    if (!counts_for(c, o->name))
+    if (o->own && !counts_for(c, o->name))
         return failed(err, ERR_ARGUMENT, "%s has no meaning for lux4 %s", o->name, c->name);
     const char *value = "";
     if (o->value && equals)

@@ -33,8 +33,7 @@ typedef struct grid_run_state {
     uint32_t seed;  /* of this grid */
 } grid_run_state;
 
-/* ---- sensors ------------------------------------------------------------------------------------
- */
+/* ---- sensors --------------------------------------------------------------------------------- */
 
 static bool plane_sensors(arena *a, const study_grid *g, grid_result *out, lux_error *err)
 {
@@ -90,8 +89,7 @@ static float place_error(const scene *s, vec3 p)
     return 8.0f * 0x1p-24f * fmaxf(most, fmaxf((float)half, 0x1p-6f));
 }
 
-/* ---- light that needs no samples
- * ----------------------------------------------------------------- */
+/* ---- light that needs no samples ------------------------------------------------------------- */
 
 /* A packet of sensors, of which those behind the last are asleep. */
 static vmask place_sensors(const grid_run_state *g, int first, vsurface *at)
@@ -124,8 +122,7 @@ static void direct_chunk(void *context, int item, int thread)
             LUMENS_PER_WATT * (double)lane(vrgb_luminance(w->e[j / LANES]), j % LANES);
 }
 
-/* ---- light that is sampled
- * -------------------------------------------------------------------------- */
+/* ---- light that is sampled ------------------------------------------------------------------- */
 
 static void sample_sensors(void *context, int thread, const sample_id *ids, int count,
                            float *values)
@@ -153,8 +150,7 @@ static void sample_sensors(void *context, int thread, const sample_id *ids, int 
     }
 }
 
-/* ---- a run
- * --------------------------------------------------------------------------------------------- */
+/* ---- a run ----------------------------------------------------------------------------------- */
 
 static bool make_threads(grid_run_state *g, arena *a, lux_error *err)
 {

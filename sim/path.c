@@ -100,8 +100,7 @@ static vrgb load_worth(const path_tracer *t, int k)
     return load3(t->worth[0], t->worth[1], t->worth[2], k * LANES);
 }
 
-/* ---- a step of all living paths ----------------------------------------------------------------
- */
+/* ---- a step of all living paths -------------------------------------------------------------- */
 
 /* All lamps where the paths begin. One that is drawn by its luminance would do, but for colour: a
  * mixture's luminance can be sure while its colour is not. */

@@ -64,8 +64,7 @@ static uint32_t seed_of(const view_run_state *v, const sample_id *id)
     return hash_combine_u32(hash_combine_u32(v->seed, id->item), id->scramble);
 }
 
-/* ---- what the camera's rays meet
- * ------------------------------------------------------------------- */
+/* ---- what the camera's rays meet ------------------------------------------------------------- */
 
 static void trace_camera(view_run_state *v, view_scratch *w, const sample_id *ids, int count)
 {
@@ -157,8 +156,7 @@ static void sample_pixels(void *context, int thread, const sample_id *ids, int c
     }
 }
 
-/* ---- a run
- * --------------------------------------------------------------------------------------------- */
+/* ---- a run ----------------------------------------------------------------------------------- */
 
 static bool make_planes(arena *a, view_result *out, lux_error *err)
 {

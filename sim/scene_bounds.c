@@ -39,8 +39,7 @@ static bool count_places(scene_build *b)
     return true;
 }
 
-/* ---- the box ------------------------------------------------------------------------------------
- */
+/* ---- the box --------------------------------------------------------------------------------- */
 
 static void grow(dvec3 *low, dvec3 *high, dvec3 p)
 {
@@ -119,8 +118,7 @@ static dvec3 middle_of_lamps(const study *s)
     return box_middle(at, at);
 }
 
-/* ---- what glows
- * ----------------------------------------------------------------------------------- */
+/* ---- what glows ------------------------------------------------------------------------------ */
 
 static bool glows(const gltf_material *m)
 {

@@ -62,8 +62,7 @@ static void warn_if_brightened(const scene_build *b, study_where where, double d
                    b->study->path, where.line, where.column, dimming);
 }
 
-/* ---- the study's own --------------------------------------------------------------------------
- */
+/* ---- the study's own ------------------------------------------------------------------------- */
 
 static bool luminaire_factor(scene_build *b, const study_luminaire *l, const photometry *web,
                              double *factor)
@@ -148,8 +147,7 @@ static bool add_points(scene_build *b)
     return true;
 }
 
-/* ---- those of glTF files (KHR_lights_punctual) ------------------------------------------------
- */
+/* ---- those of glTF files (KHR_lights_punctual) ----------------------------------------------- */
 
 static vec3 luminance_one(vec3 color)
 {

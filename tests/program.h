@@ -48,8 +48,7 @@ void assert_one_line(const program_result *r, const char *says);
 const char *project_root(void);
 const char *build_folder(void);
 
-/* ---- files that it leaves ---------------------------------------------------------------------
- */
+/* ---- files that it leaves -------------------------------------------------------------------- */
 
 /* A new folder (folder.h) that holds study.yaml. */
 char *folder_of_study(const char *yaml);
@@ -79,8 +78,7 @@ void csv_read(const char *path, csv *out);
 
 enum { X, Y, Z, NX, NY, NZ, ALL, DIRECT, INDIRECT, HALF_WIDTH }; /* columns */
 
-/* ---- JSON ---------------------------------------------------------------------------------------
- */
+/* ---- JSON ------------------------------------------------------------------------------------ */
 
 /* Whether text is one JSON value (RFC 8259) and white space. */
 bool json_is_valid(const char *text);

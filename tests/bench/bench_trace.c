@@ -185,8 +185,7 @@ static void scene_clear(scene *c)
     *c = (scene){ 0 };
 }
 
-/* ---- one lane, in a process of its own --------------------------------------------------------
- */
+/* ---- one lane, in a process of its own ------------------------------------------------------- */
 
 static int serve(void)
 {
@@ -208,8 +207,7 @@ static int serve(void)
 #if PACKET_WIDTH == 4
 #include <embree3/rtcore.h>
 
-/* ---- Embree -----------------------------------------------------------------------------------
- */
+/* ---- Embree ---------------------------------------------------------------------------------- */
 
 typedef struct embree {
     RTCDevice device;
@@ -293,8 +291,7 @@ static void embree_clear(embree *e)
     free(e->valid);
 }
 
-/* ---- the table --------------------------------------------------------------------------------
- */
+/* ---- the table ------------------------------------------------------------------------------- */
 
 typedef struct server {
     FILE *to, *from;

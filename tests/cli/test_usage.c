@@ -57,6 +57,10 @@ TEST(each_command_has_its_help)
         program_free(&r);
         program_free(&same);
     }
+    program_result study = { 0 };
+    LUX4(NULL, 0, &study, "help", "study");
+    assert_tells(&study, "luminaires");
+    program_free(&study);
     LUX4_FAILS(NULL, 2, "unknown command `gird`", "help", "gird");
     LUX4_FAILS(NULL, 2, "`sun` is not supported yet", "help", "sun");
 }
@@ -107,7 +111,7 @@ TEST(wrong_options_are_refused_before_anything_is_read)
     LUX4_FAILS(NULL, 2, "--seed: expected N", "grid", "none.yaml", "--seed");
     LUX4_FAILS(NULL, 2, "--json takes no value", "grid", "none.yaml", "--json=yes");
     LUX4_FAILS(NULL, 2, "--half has no meaning for lux4 grid", "grid", "none.yaml", "--half");
-    LUX4_FAILS(NULL, 2, "--seed has no meaning", "check", "none.yaml", "--seed", "2");
+    LUX4_FAILS(NULL, 2, "--plot has no meaning", "grid", "none.yaml", "--plot", "x.svg");
 }
 
 TEST(wrong_values_are_refused)

@@ -87,8 +87,7 @@ static void webs_show(const char *keys, const seen *s, int count)
         webs_show(keys, all, sizeof all / sizeof *all);                                            \
     } while (0)
 
-/* ---- webs -------------------------------------------------------------------------------------
- */
+/* ---- webs ------------------------------------------------------------------------------------ */
 
 TEST(aimed_down_c0_lies_along_x_and_c90_along_y)
 {

@@ -58,8 +58,7 @@ static accuracy_result run(arena *a, const accuracy_desc *d)
     return r;
 }
 
-/* ---- means and half widths -------------------------------------------------------------------
- */
+/* ---- means and half widths ------------------------------------------------------------------- */
 
 static float by_scramble(sample_id id) { return (float)(17.5 + off(id)); }
 
@@ -131,8 +130,7 @@ TEST(every_channel_has_its_means)
     arena_clear(&a);
 }
 
-/* ---- rounds ----------------------------------------------------------------------------------
- */
+/* ---- rounds ---------------------------------------------------------------------------------- */
 
 /* Samples beyond the 16th are all alike: n of them leave 16 / n of the spread. */
 static float settling(sample_id id) { return (float)(100.0 + (id.index < 16 ? off(id) : 0.0)); }
@@ -218,8 +216,7 @@ TEST(darkness_is_believed_after_the_samples_asked_for)
     arena_clear(&a);
 }
 
-/* ---- the same bytes, however it is divided ----------------------------------------------------
- */
+/* ---- the same bytes, however it is divided --------------------------------------------------- */
 
 /* Looks random, and not settled after the first round. */
 static float noise(sample_id id)
@@ -264,8 +261,7 @@ TEST(passes_and_threads_change_no_byte_of_items_in_pieces) { divided(5, 1024, 0.
 /* 4100 * 16 * 16 samples are more than 2^20: passes whatever the deadline. */
 TEST(passes_and_threads_change_no_byte_of_a_long_round) { divided(4100, 16, 0.09); }
 
-/* ---- why runs end -----------------------------------------------------------------------------
- */
+/* ---- why runs end ---------------------------------------------------------------------------- */
 
 TEST(a_deadline_already_past_leaves_two_scrambles_of_each_item)
 {

@@ -231,8 +231,7 @@ TEST(distance_and_weights_name_the_same_point)
     tear_down(&f, &s);
 }
 
-/* ---- batches, hints, masks --------------------------------------------------------------------
- */
+/* ---- batches, hints, masks ------------------------------------------------------------------- */
 
 enum { BATCH = 400 / LANES };
 
@@ -309,8 +308,7 @@ TEST(dead_lanes_are_misses_whatever_they_hold)
     tear_down(&f, &s);
 }
 
-/* ---- equal distances, and the ends of rays ------------------------------------------------------
- */
+/* ---- equal distances, and the ends of rays --------------------------------------------------- */
 
 static void flat_square(shape *s, float z)
 {
@@ -386,8 +384,7 @@ TEST(a_ray_ends_before_its_reach_and_begins_behind_its_origin)
     tear_down(&f, &s);
 }
 
-/* ---- all hits ---------------------------------------------------------------------------------
- */
+/* ---- all hits -------------------------------------------------------------------------------- */
 
 enum { PANES = 20 };
 
@@ -458,8 +455,7 @@ TEST(all_hits_of_a_soup_are_first_hits_one_behind_the_other)
     shape_clear(&s);
 }
 
-/* ---- what a hit is ------------------------------------------------------------------------------
- */
+/* ---- what a hit is --------------------------------------------------------------------------- */
 
 /* Corners counter-clockwise from above: the front looks up, and where the matrix takes that. */
 TEST(a_normal_points_to_the_image_of_the_front)
@@ -501,8 +497,7 @@ TEST(a_normal_points_to_the_image_of_the_front)
     shape_clear(&s);
 }
 
-/* ---- building -----------------------------------------------------------------------------------
- */
+/* ---- building -------------------------------------------------------------------------------- */
 
 TEST(worlds_of_nothing_are_worlds)
 {

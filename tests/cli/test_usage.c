@@ -57,10 +57,10 @@ TEST(each_command_has_its_help)
         program_free(&r);
         program_free(&same);
     }
-    program_result study = { 0 };
-    LUX4(NULL, 0, &study, "help", "study");
-    assert_tells(&study, "luminaires");
-    program_free(&study);
+    program_result page = { 0 };
+    LUX4(NULL, 0, &page, "help", "study");
+    assert_tells(&page, "luminaires");
+    program_free(&page);
     LUX4_FAILS(NULL, 2, "unknown command `gird`", "help", "gird");
     LUX4_FAILS(NULL, 2, "`sun` is not supported yet", "help", "sun");
 }
@@ -110,8 +110,9 @@ TEST(wrong_options_are_refused_before_anything_is_read)
     LUX4_FAILS(NULL, 2, "-o: expected a folder", "grid", "none.yaml", "-o", "");
     LUX4_FAILS(NULL, 2, "--seed: expected N", "grid", "none.yaml", "--seed");
     LUX4_FAILS(NULL, 2, "--json takes no value", "grid", "none.yaml", "--json=yes");
-    LUX4_FAILS(NULL, 2, "--half has no meaning for lux4 grid", "grid", "none.yaml", "--half");
     LUX4_FAILS(NULL, 2, "--plot has no meaning", "grid", "none.yaml", "--plot", "x.svg");
+    /* Options of all are taken by all */
+    LUX4_FAILS(NULL, 2, "none.yaml", "check", "none.yaml", "--seed", "2", "--half", "-o", "x");
 }
 
 TEST(wrong_values_are_refused)

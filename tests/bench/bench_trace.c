@@ -270,14 +270,14 @@ static double embree_trace(embree *e, const scene *c, kind k)
     return seconds() - start;
 }
 
-/* Rays of which Embree says something else, by more than 1e-4 of the distance. */
+/* Rays of which Embree says something else, by more than 20 um and 1e-4 of the distance. */
 static int differing(const embree *e, const scene *c, kind k)
 {
     int n = 0;
     for (int i = 0; i < PACKETS; i++) {
         vfloat other = vload(e->rays[i].ray.tfar);
         vmask apart  = k == SHADOW ? c->blocked[i] ^ (other < 0.0f)
-                                   : ~(vabs(c->hits[i].distance - other) <= 1e-4f * other);
+                                   : ~(vabs(c->hits[i].distance - other) <= 1e-4f * other + 2e-5f);
         n += __builtin_popcount((unsigned)vbits(apart & c->active[k][i]));
     }
     return n;

@@ -15,7 +15,7 @@ static const double student_t[SCRAMBLES] = { HUGE_VAL, 12.7062, 4.3027, 3.1824, 
                                              2.1788,   2.1604,  2.1448, 2.1314 };
 
 /* Items so few that threads would lie idle are split by scramble where they need many samples. */
-enum { FEW_ITEMS = 1024, LONG_ROUND = 1 << 20 /* samples */ };
+enum { FEW_ITEMS = 1024, LONG_ROUND = 1 << 20 /* samples */, LEAST_ROUNDS = 2 };
 
 typedef struct by_scramble {
     float sum[SCRAMBLES]; /* of channel 0 */
@@ -35,6 +35,7 @@ typedef struct run_state {
     uint32_t n, first;
     int from, to;  /* scrambles of this pass; all of them, but for the passes of the first round */
     int scrambles; /* that every item has had, of SCRAMBLES */
+    int rounds;    /* that are over */
     double *new_total;       /* (piece * active_count + j) * channels + channel */
     by_scramble *new_parts;  /* an active item */
     atomic_int *pieces_done; /* an active item */
@@ -285,9 +286,10 @@ static bool judge(run_state *s, lux_error *err)
         s->samples_predicted += n;
         if (n == 0.0 || s->scrambles < 2)
             s->r->complete = false;
-        if (n == 0.0 || !(ratios[i] <= s->d->accuracy)) {
+        bool missed = n == 0.0 || !(ratios[i] <= s->d->accuracy);
+        s->r->missed += missed;
+        if (missed || s->rounds < LEAST_ROUNDS) {
             double more = fmin(ratios[i] / s->d->accuracy, 1e3);
-            s->r->missed++;
             s->samples_predicted += fmax(n, n * (more * more - 1.0));
             s->active[s->active_count++] = i;
         }
@@ -296,7 +298,7 @@ static bool judge(run_state *s, lux_error *err)
     int may_miss = (int)((1.0 - s->d->needed) * items + 1e-9);
     qsort(ratios, (size_t)items, sizeof *ratios, compare);
     s->reached = s->r->reached = ratios[items - 1 - may_miss];
-    bool enough = s->scrambles == SCRAMBLES && s->r->complete && s->r->missed <= may_miss;
+    bool enough = s->rounds >= LEAST_ROUNDS && s->r->complete && s->r->missed <= may_miss;
     s->r->end   = enough ? RUN_DONE : RUN_EXHAUSTED; /* unless something else ends it before */
     arena_clear(&scratch);
     return true;
@@ -333,8 +335,9 @@ static bool first_round(run_state *s, lux_error *err)
         if (s->may_cut || progress_stopped(s->d->progress))
             halt_if_late(s);
     }
-    s->from = 0;
-    s->to   = SCRAMBLES;
+    s->from   = 0;
+    s->to     = SCRAMBLES;
+    s->rounds = s->scrambles == SCRAMBLES;
     return judge(s, err);
 }
 
@@ -350,7 +353,10 @@ static bool run_rounds(run_state *s, lux_error *err)
     while (!s->halt && s->r->end != RUN_DONE && 2 * (s->first + s->n) <= MOST_SAMPLES) {
         s->first += s->n;
         s->n = s->first; /* as many again: doubled; from there on, they are a net of their own */
-        if (!sample_round(s, err) || !judge(s, err))
+        if (!sample_round(s, err))
+            return false;
+        s->rounds++;
+        if (!judge(s, err))
             return false;
         halt_if_late(s);
     }

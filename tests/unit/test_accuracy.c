@@ -67,6 +67,7 @@ TEST(a_half_width_is_student_s_of_the_scrambles_means)
     arena a           = { 0 };
     fake f            = { .value = by_scramble };
     accuracy_desc d   = desc_of(&f, 1);
+    d.first_samples   = 8; /* and as many in the second round, which is never left out */
     d.accuracy        = 0.2;
     accuracy_result r = run(&a, &d);
     assert_near(r.mean[0], 17.5, 1e-7);
@@ -105,6 +106,7 @@ TEST(what_is_known_exactly_counts_in_the_accuracy_and_not_in_the_mean)
     const double exact = 157.5;
     fake f             = { .value = by_scramble };
     accuracy_desc d    = desc_of(&f, 1);
+    d.first_samples    = 8; /* and as many in the second round, which is never left out */
     d.exact            = &exact;
     d.accuracy         = 0.02; /* 0.145 of 17.5, 0.0145 of 175 */
     accuracy_result r  = run(&a, &d);
@@ -159,6 +161,7 @@ TEST(the_share_needed_may_leave_the_worst_items_behind)
     arena a           = { 0 };
     fake f            = { .value = half_settled };
     accuracy_desc d   = desc_of(&f, 4);
+    d.first_samples   = 8;    /* and as many in the second round, which is never left out */
     d.accuracy        = 0.02; /* half widths 0.0254, and half of that where nothing spreads */
     d.needed          = 0.5;
     accuracy_result r = run(&a, &d);
@@ -207,6 +210,7 @@ TEST(darkness_is_believed_after_the_samples_asked_for)
     arena a           = { 0 };
     fake f            = { .value = dark };
     accuracy_desc d   = desc_of(&f, 3);
+    d.first_samples   = 8; /* and as many in the second round, which is never left out */
     accuracy_result r = run(&a, &d);
     assert_true(r.end == RUN_DONE && r.samples[2] == 16 * 16);
     d.dark_samples = 256;

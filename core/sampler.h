@@ -50,4 +50,12 @@ static inline uint32_t hash_combine_u32(uint32_t a, uint32_t b)
 }
 static inline vuint vhash_combine(vuint a, vuint b) { return vhash(vhash(a) + b); }
 
+/* Of a number and a text. */
+static inline uint32_t hash_text_u32(uint32_t a, const char *text)
+{
+    for (; *text; text++)
+        a = hash_combine_u32(a, (uint32_t)(unsigned char)*text);
+    return a;
+}
+
 #endif

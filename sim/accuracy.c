@@ -39,7 +39,7 @@ typedef struct run_state {
     double *new_total;       /* (piece * active_count + j) * channels + channel */
     by_scramble *new_parts;  /* an active item */
     atomic_int *pieces_done; /* an active item */
-    bool may_cut;            /* the deadline counts: not in the first round */
+    bool may_cut;            /* the deadline counts: once every item has two scrambles */
     atomic_llong samples_done;
     double samples_before, samples_predicted, reached;
     bool halt; /* by __atomic alone */

@@ -9,7 +9,8 @@
  *
  * with t the 97.5 % quantile of Student's distribution of SCRAMBLES - 1 degrees of freedom, is
  * half of a 95 % confidence interval (Owen, "Monte Carlo theory, methods and examples", 17.2). n
- * doubles from round to round, and after the second an unknown is done when its half width is at most
+ * doubles from round to round, and after the second an unknown is done when its half width is at
+ * most
  *
  *     accuracy * max(|mean|, floor)
  *

@@ -101,7 +101,7 @@ static bool buffer_bytes(const gltf_file *f, uint32_t i, size_t *left, lux_error
     if (b->uri && !gltf_file_locate(f, pointer, b->uri, b->uri_length, &bytes, &size, &path, err))
         return false;
     if (!b->uri && (i > 0 || !bytes))
-        return true; /* a placeholder */
+        return true; /* of no bytes: extensions may fill it, and nothing is read from it */
     if (path) {
         lux_error why = { 0 };
         bytes         = (const uint8_t *)file_read(f->scratch, path, *left, &size, &why);

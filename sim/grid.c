@@ -253,9 +253,8 @@ bool grid_run(arena *a, const scene *s, const study_grid *grid, const run_option
 {
     double begun     = clock_seconds();
     arena scratch    = { 0 };
-    grid_run_state g = { .s = s, .o = o, .r = out, .seed = hash_u32(o->seed) };
-    for (const char *c = grid->name; *c; c++)
-        g.seed = hash_combine_u32(g.seed, (uint32_t)(unsigned char)*c);
+    uint32_t seed    = hash_text_u32(hash_u32(o->seed), grid->name);
+    grid_run_state g = { .s = s, .o = o, .r = out, .seed = seed };
 
     bool good           = grid_sensors(a, grid, out, err);
     size_t n            = (size_t)out->sensor_count;

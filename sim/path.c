@@ -310,7 +310,7 @@ void path_trace(path_tracer *t, path_bundle *b, bool lamps, bool bounce)
     /* The pdf of the first direction, cos / pi, turns radiance into irradiance by pi */
     for (int c = 0; c < 3; c++)
         for (int i = 0; i < b->count; i++) {
-            b->glow[c][i] *= 3.14159265f;
-            b->indirect[c][i] *= 3.14159265f;
+            b->glow[c][i] *= WARP_PI;
+            b->indirect[c][i] *= WARP_PI;
         }
 }

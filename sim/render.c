@@ -244,9 +244,8 @@ bool view_run(arena *a, const scene *s, const study_view *view, const run_option
 {
     double begun     = clock_seconds();
     arena scratch    = { 0 };
-    view_run_state v = { .s = s, .o = o, .seed = hash_u32(~o->seed) };
-    for (const char *c = view->name; *c; c++)
-        v.seed = hash_combine_u32(v.seed, (uint32_t)(unsigned char)*c);
+    uint32_t seed    = hash_text_u32(hash_u32(~o->seed), view->name);
+    view_run_state v = { .s = s, .o = o, .seed = seed };
     if (!camera_of_view(s, view, &v.camera, err))
         return false;
     *out = (view_result){ .view   = view,

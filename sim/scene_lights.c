@@ -193,7 +193,5 @@ static bool add_gltf_lights(scene_build *b)
 
 bool build_lights(scene_build *b)
 {
-    if (!(add_luminaires(b) && add_points(b) && add_gltf_lights(b)))
-        return false;
-    return true;
+    return add_luminaires(b) && add_points(b) && add_gltf_lights(b);
 }

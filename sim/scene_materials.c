@@ -77,10 +77,15 @@ static bool all_patterns_match(scene_build *b)
 /* Which materials of a file some placed triangle is made of: the others are not worth a word. */
 static bool *used_materials(scene_build *b, const gltf *g)
 {
-    bool *used = arena_array(b->a, bool, g->material_count, b->err);
-    for (uint32_t k = 0; used && k < g->placement_count; k++) {
-        const mesh *m = &g->meshes[g->placements[k].mesh].triangles;
-        for (uint32_t t = 0; t < m->triangle_count; t++)
+    bool *used   = arena_array(b->a, bool, g->material_count, b->err);
+    bool *placed = used ? arena_array(b->a, bool, (size_t)g->mesh_count + 1, b->err) : NULL;
+    if (!placed)
+        return NULL;
+    for (uint32_t k = 0; k < g->placement_count; k++)
+        placed[g->placements[k].mesh] = true;
+    for (uint32_t k = 0; k < g->mesh_count; k++) {
+        const mesh *m = &g->meshes[k].triangles;
+        for (uint32_t t = 0; placed[k] && t < m->triangle_count; t++)
             used[m->material ? m->material[t] : 0] = true;
     }
     return used;
@@ -110,16 +115,9 @@ bool build_materials(scene_build *b)
                            add(b, "room: floor", s->room.floor, (vec3){ 0 }, true)))
         return false;
     for (int i = 0; i < s->scene_count; i++) {
-        bool again = false;
-        for (int j = 0; j < i && !again; j++)
-            if (b->files[j] == b->files[i]) {
-                first[i] = first[j];
-                again    = true;
-            }
-        if (again)
-            continue;
-        first[i] = (uint32_t)b->materials.count;
-        if (!add_file(b, s->scenes[i].file, b->files[i]))
+        int before = scene_first_use(b, i);
+        first[i]   = before < i ? first[before] : (uint32_t)b->materials.count;
+        if (before == i && !add_file(b, s->scenes[i].file, b->files[i]))
             return false;
     }
     b->first_material = first;

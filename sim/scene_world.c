@@ -34,7 +34,7 @@ static bool is_baked(const scene_build *b, int i, uint32_t mesh_index)
            times * b->files[i]->meshes[mesh_index].triangles.triangle_count <= MOST_COPIED;
 }
 
-static bool bake(scene_build *b, baked *to, const mesh *m, const transform *place, uint32_t first)
+static void bake(scene_build *b, baked *to, const mesh *m, const transform *place, uint32_t first)
 {
     uint32_t base = to->position_count;
     for (uint32_t v = 0; v < m->position_count; v++) {
@@ -50,7 +50,6 @@ static bool bake(scene_build *b, baked *to, const mesh *m, const transform *plac
         d[2]              = base + c[mirrored ? 1 : 2];
         to->material[to->triangle_count] = first + (m->material ? m->material[t] : 0);
     }
-    return true;
 }
 
 /* A placed mesh keeps its own frame, moved to the middle of its box: a mesh far from its origin
@@ -110,7 +109,7 @@ static bool add_instances(scene_build *b, world_parts *w, int i)
     return true;
 }
 
-static bool bake_file(scene_build *b, baked *to, int i)
+static void bake_file(scene_build *b, baked *to, int i)
 {
     const study_scene *s = &b->study->scenes[i];
     const gltf *g        = b->files[i];
@@ -119,11 +118,9 @@ static bool bake_file(scene_build *b, baked *to, int i)
         for (int c = 0; is_baked(b, i, p->mesh) && c < s->at_count; c++) {
             transform copy     = scene_copy_place(s, c);
             transform to_world = transform_product(&copy, &p->place);
-            if (!bake(b, to, &g->meshes[p->mesh].triangles, &to_world, b->first_material[i]))
-                return false;
+            bake(b, to, &g->meshes[p->mesh].triangles, &to_world, b->first_material[i]);
         }
     }
-    return true;
 }
 
 static void bake_room(scene_build *b, baked *to)
@@ -177,8 +174,7 @@ world *build_world(scene_build *b, int threads)
     if (b->study->room.given)
         bake_room(&local, &w.common);
     for (int i = 0; i < b->study->scene_count; i++)
-        if (!bake_file(&local, &w.common, i))
-            goto done;
+        bake_file(&local, &w.common, i);
     w.meshes[w.mesh_count++] = (mesh){ w.common.positions, w.common.corners, w.common.material,
                                        w.common.position_count, w.common.triangle_count };
     world_instance *in       = list_new(&w.instances, &scratch, world_instance, b->err);

@@ -5,6 +5,7 @@
  * with a the angle to the axis: the ramp of KHR_lights_punctual (glTF). It sends out
  * 2 pi I0 ((1 - cos inner) + (cos inner - cos outer) / 3) watts.
  */
+#include "core/color.h"
 #include "lights/light.h"
 
 typedef struct cone_light {
@@ -52,7 +53,22 @@ static vec3 cone_peak(const light *self, vec3 *toward)
     return ((const cone_light *)self)->intensity;
 }
 
-static const light_type cone_type = { "cone", cone_sample, cone_flux, cone_peak };
+static light_bounds cone_bounds(const light *self)
+{
+    const cone_light *l = (const cone_light *)self;
+    return (light_bounds){ .low        = l->position,
+                           .high       = l->position,
+                           .axis       = l->axis,
+                           .cos_spread = 1.0f,
+                           .cos_reach  = l->cos_outer,
+                           .peak       = rgb_luminance(l->intensity) };
+}
+
+static const light_type cone_type = { .name   = "cone",
+                                      .sample = cone_sample,
+                                      .flux   = cone_flux,
+                                      .peak   = cone_peak,
+                                      .bounds = cone_bounds };
 
 const light *light_cone(arena *a, const cone_desc *d, lux_error *err)
 {

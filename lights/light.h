@@ -25,8 +25,28 @@ typedef struct vlight_sample {
     vvec3 wi;    /* toward that place */
     vfloat dist; /* m, to that place, along which a shadow ray must be clear; INFINITY: far away */
     vrgb e;      /* W/m^2, on a surface facing wi, nothing in between; the pdf is divided out */
-    vfloat pdf;  /* 1/sr; INFINITY for a light without extent, which no other ray can find */
+    vfloat pdf;  /* 1/sr; INFINITY for a light that no ray can find: without extent, or a line */
 } vlight_sample;
+
+/* What a ray meets of a light. */
+typedef struct vlight_hit {
+    vfloat dist;   /* m, along the ray */
+    vrgb radiance; /* W/(sr m^2), toward the ray's origin */
+    vfloat pdf;    /* 1/sr, with which sample() draws this direction from the ray's origin */
+} vlight_hit;
+
+/* Where a light is and where it shines to, for choosing among many: the orientation cone of Conty
+ * Estevez and Kulla ("Importance Sampling of Many Lights with Adaptive Tree Splitting", HPG 2018,
+ * section 4.1). Light goes only where its angle to some direction within `cos_spread` of the axis
+ * is within `cos_reach`; the intensity in no direction is above `peak`. */
+typedef struct light_bounds {
+    vec3 low, high;   /* m, a box around the light */
+    vec3 axis;        /* unit */
+    float cos_spread; /* [-1, 1]; 1: the axis alone */
+    float cos_reach;  /* [-1, 1]; 0: a hemisphere about each, -1: all around */
+    float peak;       /* W/sr, as luminance; if far: W/m^2, on a surface facing it */
+    bool far;         /* infinitely far: the box means nothing */
+} light_bounds;
 
 /* What a type of light is; one constant of this type per file of lights/. */
 typedef struct light_type {
@@ -36,11 +56,32 @@ typedef struct light_type {
     vmask (*sample)(const light *self, const vvec3 *p, vfloat s, vfloat t, vmask active,
                     vlight_sample *out);
 
+    /* What rays from p along wi meet of the light itself; the lanes that do. NULL: nothing can. */
+    vmask (*hit)(const light *self, const vvec3 *p, const vvec3 *wi, vmask active,
+                 vlight_hit *out);
+
+    /* The irradiance on a surface at p with unit normal n, W/m^2, exactly, nothing in between: the
+     * part of the light that is below the surface's horizon left out. NULL: by samples alone. */
+    vrgb (*irradiance)(const light *self, const vvec3 *p, const vvec3 *n, vmask active);
+
+    /* About the same as a luminance, W/m^2, for choosing among lights: finite, and above 0 wherever
+     * a sample may light the surface. NULL: what the one place of the light gives is that. */
+    vfloat (*weight)(const light *self, const vvec3 *p, const vvec3 *n, vmask active);
+
+    /* The light as if all of it came from its centre: *out as sample() gives it. In *error a bound
+     * on what that is off, as a luminance in W/m^2, for a surface at p however it is turned;
+     * INFINITY close by, where no such bound is known. NULL for a light without extent, of which
+     * sample() is exact. */
+    vmask (*as_point)(const light *self, const vvec3 *p, vmask active, vlight_sample *out,
+                      vfloat *error);
+
     vec3 (*flux)(const light *self); /* W, in all directions together; INFINITY if far away */
 
     /* The direction in which it shines strongest, and how strong, W/sr. NULL for a light that is as
      * strong in all directions, or far away. */
     vec3 (*peak)(const light *self, vec3 *toward);
+
+    light_bounds (*bounds)(const light *self);
 } light_type;
 
 /* The first member of every light. */
@@ -55,6 +96,15 @@ static inline vmask light_sample(const light *l, const vvec3 *p, vfloat s, vfloa
 }
 
 static inline vec3 light_flux(const light *l) { return l->type->flux(l); }
+
+static inline light_bounds light_bounds_of(const light *l) { return l->type->bounds(l); }
+
+/* Whether it has one place only, so that (s, t) change nothing. */
+static inline bool light_has_extent(const light *l) { return l->type->as_point != NULL; }
+
+/* An upper bound of the irradiance, as a luminance in W/m^2, on any surface at p, nothing in
+ * between: peak / distance^2 to the box; INFINITY within the box. */
+vfloat vlight_power_bound(const light_bounds *b, const vvec3 *p, vmask active);
 
 /* Makers: check *d, copy it into a, and return a light that lives as long as a does,
  * or NULL with *err filled in; a is then as it was. */
@@ -73,7 +123,45 @@ typedef struct cone_desc {
 typedef struct parallel_desc {
     vec3 aim;        /* where the light goes; any length but 0 */
     vec3 irradiance; /* W/m^2, on a plane square to it, >= 0 */
+    vec3 at;         /* m, the middle of the beam where it begins, if radius > 0 */
+    float radius;    /* m, of the beam; 0: everywhere */
 } parallel_desc;
+
+/* The directional source of Barladian et al. (2007): I0 cos^n of the angle to the axis. */
+typedef struct cosine_desc {
+    vec3 position;  /* m */
+    vec3 aim;       /* where the axis points; any length but 0 */
+    vec3 intensity; /* W/sr, along the axis, >= 0 */
+    float exponent; /* n >= 0, at most 1e4; 1: as a small matt surface */
+} cosine_desc;
+
+/* A line that shines around itself as a thin matt cylinder does: with the sine of the angle to it. */
+typedef struct linear_desc {
+    vec3 from, to;  /* m, two places */
+    vec3 intensity; /* W/sr, of the whole line, square to it, >= 0; its flux is pi^2 times that */
+} linear_desc;
+
+/* Flat, Lambertian, shining from one side only. */
+typedef struct disk_desc {
+    vec3 centre;   /* m */
+    vec3 aim;      /* the side that shines; any length but 0 */
+    float radius;  /* m, > 0 */
+    vec3 radiance; /* W/(sr m^2), >= 0 */
+} disk_desc;
+
+typedef struct rect_desc {
+    vec3 centre;         /* m */
+    vec3 aim;            /* the side that shines; any length but 0 */
+    vec3 up;             /* along `height`, after what of it lies along aim is taken off; not parallel */
+    float width, height; /* m, > 0; width along aim x up: +x if aimed down with up = +y */
+    vec3 radiance;       /* W/(sr m^2), >= 0 */
+} rect_desc;
+
+/* A triangle of a glowing surface: Lambertian, shining from both sides. */
+typedef struct triangle_desc {
+    vec3 corner[3]; /* m; an area > 0 */
+    vec3 radiance;  /* W/(sr m^2), >= 0 */
+} triangle_desc;
 
 typedef struct luminaire_desc {
     vec3 position; /* m, centre of the luminous opening */
@@ -81,11 +169,19 @@ typedef struct luminaire_desc {
     float rotate;  /* rad, counter-clockwise about +z seen from above, before aiming */
     vec3 scale;    /* W/sr for each candela of the file: dimming, colour, 1/179; >= 0 */
     const struct photometry *web; /* must outlive the light; several lights may share it */
+    vec3 c0; /* where C0 points, in place of `rotate`, after what of it lies along aim is taken off;
+                0 0 0: as `rotate` says. C90 is C0 x aim: +y if aimed down with C0 = +x */
+    bool point; /* leave the opening out: all light comes from the position */
 } luminaire_desc;
 
 const light *light_point(arena *a, const point_desc *d, lux_error *err);
 const light *light_cone(arena *a, const cone_desc *d, lux_error *err);
 const light *light_parallel(arena *a, const parallel_desc *d, lux_error *err);
+const light *light_cosine(arena *a, const cosine_desc *d, lux_error *err);
+const light *light_linear(arena *a, const linear_desc *d, lux_error *err);
+const light *light_disk(arena *a, const disk_desc *d, lux_error *err);
+const light *light_rect(arena *a, const rect_desc *d, lux_error *err);
+const light *light_triangle(arena *a, const triangle_desc *d, lux_error *err);
 const light *light_luminaire(arena *a, const luminaire_desc *d, lux_error *err);
 
 #endif

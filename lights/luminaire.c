@@ -16,6 +16,7 @@
  *
  * and for an aim straight up, which has no shortest way, by half a turn about C0.
  */
+#include "core/color.h"
 #include "core/packet_math.h"
 #include "core/table.h"
 #include "core/transform.h"
@@ -86,8 +87,22 @@ static vec3 luminaire_peak(const light *self, vec3 *toward)
     return v3_scale(l->scale, l->most);
 }
 
-static const light_type luminaire_type = { "luminaire", luminaire_sample, luminaire_flux,
-                                           luminaire_peak };
+static light_bounds luminaire_bounds(const light *self)
+{
+    const luminaire *l = (const luminaire *)self;
+    return (light_bounds){ .low        = l->position,
+                           .high       = l->position,
+                           .axis       = l->axis,
+                           .cos_spread = 1.0f,
+                           .cos_reach  = l->down_least > -1.0f ? l->down_least : -1.0f,
+                           .peak       = rgb_luminance(l->scale) * l->most };
+}
+
+static const light_type luminaire_type = { .name   = "luminaire",
+                                           .sample = luminaire_sample,
+                                           .flux   = luminaire_flux,
+                                           .peak   = luminaire_peak,
+                                           .bounds = luminaire_bounds };
 
 /* ---- making one ------------------------------------------------------------------------- */
 

@@ -1,4 +1,5 @@
 /* lights/parallel.c -- light from so far away that it has one direction and one strength. */
+#include "core/color.h"
 #include "lights/light.h"
 
 typedef struct parallel_light {
@@ -26,7 +27,20 @@ static vec3 parallel_flux(const light *self)
     return (vec3){ INFINITY, INFINITY, INFINITY };
 }
 
-static const light_type parallel_type = { "parallel", parallel_sample, parallel_flux };
+static light_bounds parallel_bounds(const light *self)
+{
+    const parallel_light *l = (const parallel_light *)self;
+    return (light_bounds){ .axis       = v3_scale(l->toward, -1.0f),
+                           .cos_spread = 1.0f,
+                           .cos_reach  = 1.0f,
+                           .peak       = rgb_luminance(l->irradiance),
+                           .far        = true };
+}
+
+static const light_type parallel_type = { .name   = "parallel",
+                                          .sample = parallel_sample,
+                                          .flux   = parallel_flux,
+                                          .bounds = parallel_bounds };
 
 const light *light_parallel(arena *a, const parallel_desc *d, lux_error *err)
 {

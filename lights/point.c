@@ -2,6 +2,7 @@
  *
  *     E = I / d^2        [W/m^2], I in W/sr, d in m, on a surface facing the light
  */
+#include "core/color.h"
 #include "lights/light.h"
 
 typedef struct point_light {
@@ -33,7 +34,21 @@ static vec3 point_flux(const light *self)
     return v3_scale(((const point_light *)self)->intensity, 4.0f * (float)M_PI);
 }
 
-static const light_type point_type = { "point", point_sample, point_flux };
+static light_bounds point_bounds(const light *self)
+{
+    const point_light *l = (const point_light *)self;
+    return (light_bounds){ .low        = l->position,
+                           .high       = l->position,
+                           .axis       = { 0, 0, 1 },
+                           .cos_spread = -1.0f,
+                           .cos_reach  = -1.0f,
+                           .peak       = rgb_luminance(l->intensity) };
+}
+
+static const light_type point_type = { .name   = "point",
+                                       .sample = point_sample,
+                                       .flux   = point_flux,
+                                       .bounds = point_bounds };
 
 const light *light_point(arena *a, const point_desc *d, lux_error *err)
 {

@@ -18,15 +18,17 @@ static const double student_t[SCRAMBLES] = { HUGE_VAL, 12.7062, 4.3027, 3.1824, 
 enum { FEW_ITEMS = 1024, LONG_ROUND = 1 << 20 /* samples */, LEAST_ROUNDS = 2 };
 
 typedef struct by_scramble {
-    float sum[SCRAMBLES]; /* of channel 0 */
+    float sum[SCRAMBLES];
 } by_scramble;
 
 typedef struct run_state {
     const accuracy_desc *d;
     accuracy_result *r;
+    int judged;         /* channels */
     double *total;      /* items * channels, channel by channel */
-    by_scramble *parts; /* an item */
-    float *values;      /* a thread: MOST_CHANNELS * BUNDLE */
+    by_scramble *parts; /* an item, of each judged channel: item * judged + channel */
+    double *floors;     /* of each judged channel */
+    float *values;      /* a thread: channels * BUNDLE */
 
     /* This round: n new samples for each scramble of the active items, beginning with number
      * `first`. Work is handed out as `together` items at a time or, if pieces > 1, as one item's
@@ -37,7 +39,7 @@ typedef struct run_state {
     int scrambles; /* that every item has had, of SCRAMBLES */
     int rounds;    /* that are over */
     double *new_total;       /* (piece * active_count + j) * channels + channel */
-    by_scramble *new_parts;  /* an active item */
+    by_scramble *new_parts;  /* an active item: as parts */
     atomic_int *pieces_done; /* an active item */
     bool may_cut;            /* the deadline counts: once every item has two scrambles */
     atomic_llong samples_done;
@@ -66,15 +68,15 @@ const char *run_end_text(run_end end)
 
 /* Adds the values of samples begin .. end - 1, which are of one scramble of one item. */
 static void add_set(run_state *s, const float *values, int begin, int end, double *total,
-                    float *part)
+                    by_scramble *parts, int scramble)
 {
     for (int c = 0; c < s->d->channels; c++) {
         double sum = 0.0;
         for (int i = begin; i < end; i++)
             sum += (double)values[c * BUNDLE + i];
         total[c] += sum;
-        if (c == 0)
-            *part = (float)((double)*part + sum);
+        if (c < s->judged)
+            parts[c].sum[scramble] = (float)((double)parts[c].sum[scramble] + sum);
     }
 }
 
@@ -82,7 +84,7 @@ static void add_set(run_state *s, const float *values, int begin, int end, doubl
  * a bundle of one scramble after the other. */
 static void sample_sets(run_state *s, int thread, int j0, int j1, int r0, int r1, double *totals)
 {
-    float *values = s->values + (size_t)thread * MOST_CHANNELS * BUNDLE;
+    float *values = s->values + (size_t)thread * (size_t)s->d->channels * BUNDLE;
     sample_id ids[BUNDLE];
     uint32_t step = s->n < BUNDLE ? s->n : BUNDLE; /* samples of a set in one bundle */
     int sets = (j1 - j0) * (r1 - r0), room = BUNDLE / (int)step;
@@ -104,7 +106,7 @@ static void sample_sets(run_state *s, int thread, int j0, int j1, int r0, int r1
                     at = (set - from) * (int)step;
                 add_set(s, values, at, at + (int)step,
                         totals + (size_t)(j - j0) * (size_t)s->d->channels,
-                        &s->new_parts[j].sum[r]);
+                        &s->new_parts[j * s->judged], r);
             }
         }
     }
@@ -134,6 +136,7 @@ static void do_work(void *context, int item, int thread)
 static void take_over(run_state *s)
 {
     size_t channels = (size_t)s->d->channels, active = (size_t)s->active_count;
+    size_t judged = (size_t)s->judged;
     for (size_t j = 0; j < active; j++) {
         if (s->pieces_done[j] < s->pieces)
             continue;
@@ -142,8 +145,9 @@ static void take_over(run_state *s)
             for (size_t piece = 0; piece < (size_t)s->pieces; piece++)
                 s->total[c * (size_t)s->d->items + item] +=
                     s->new_total[(piece * active + j) * channels + c];
-        for (int r = 0; r < SCRAMBLES; r++)
-            s->parts[item].sum[r] += s->new_parts[j].sum[r];
+        for (size_t q = 0; q < judged; q++)
+            for (int r = 0; r < SCRAMBLES; r++)
+                s->parts[item * judged + q].sum[r] += s->new_parts[j * judged + q].sum[r];
         s->r->samples[item] += (uint32_t)(s->to - s->from) * s->n;
     }
 }
@@ -158,7 +162,7 @@ static bool sample_round(run_state *s, lux_error *err)
     s->pieces        = whole && an_item > BUNDLE && s->active_count < FEW_ITEMS ? SCRAMBLES : 1;
     s->new_total =
         arena_array(&scratch, double, active *(size_t)s->pieces *(size_t)s->d->channels, err);
-    s->new_parts   = arena_array(&scratch, by_scramble, active, err);
+    s->new_parts   = arena_array(&scratch, by_scramble, active * (size_t)s->judged, err);
     s->pieces_done = arena_array(&scratch, atomic_int, active, err);
     if (s->new_total && s->new_parts && s->pieces_done) {
         int items = (s->active_count + s->together - 1) / s->together * s->pieces;
@@ -176,34 +180,41 @@ static bool sample_round(run_state *s, lux_error *err)
 
 /* ---- between rounds: how good it is ---------------------------------------------------------- */
 
-static double value_of(const run_state *s, int item)
+static size_t at(const run_state *s, int channel, int item)
+{
+    return (size_t)channel * (size_t)s->d->items + (size_t)item;
+}
+
+static double value_of(const run_state *s, int channel, int item)
 {
     double n = s->r->samples[item];
-    return (s->d->exact ? s->d->exact[item] : 0.0) + (n > 0 ? s->total[item] / n : 0.0);
+    return (s->d->exact ? s->d->exact[at(s, channel, item)] : 0.0) +
+           (n > 0 ? s->total[at(s, channel, item)] / n : 0.0);
 }
 
 /* From the item's own scrambles alone. */
-static double own_half_width(const run_state *s, int item)
+static double own_half_width(const run_state *s, int channel, int item)
 {
-    int scrambles = s->scrambles;
+    int scrambles     = s->scrambles;
+    const float *part = s->parts[(size_t)item * (size_t)s->judged + (size_t)channel].sum;
     double n = (double)s->r->samples[item] / scrambles, mean = 0.0, squares = 0.0;
     if (!(n > 0.0) || scrambles < 2)
         return HUGE_VAL;
     for (int r = 0; r < scrambles; r++)
-        mean += (double)s->parts[item].sum[r] / (n * scrambles);
+        mean += (double)part[r] / (n * scrambles);
     for (int r = 0; r < scrambles; r++) {
-        double off = (double)s->parts[item].sum[r] / n - mean;
+        double off = (double)part[r] / n - mean;
         squares += off * off;
     }
     return student_t[scrambles - 1] * sqrt(squares / (scrambles - 1) / scrambles);
 }
 
-static double floor_of(const run_state *s)
+static double floor_of(const run_state *s, int channel)
 {
     double sum = 0.0, count = 0.0;
     bool geometric = s->d->floor == FLOOR_LOG_MEAN;
     for (int i = 0; i < s->d->items; i++) {
-        double value = fabs(value_of(s, i));
+        double value = fabs(value_of(s, channel, i));
         if (geometric && !(value > 0.0))
             continue;
         sum += geometric ? log(value) : value;
@@ -215,27 +226,27 @@ static double floor_of(const run_state *s)
 }
 
 /* What the accuracy asked for is relative to. */
-static double against_of(const run_state *s, int item)
+static double against_of(const run_state *s, int channel, int item)
 {
-    return fmax(fabs(value_of(s, item)), s->r->floor);
+    return fmax(fabs(value_of(s, channel, item)), s->floors[channel]);
 }
 
-/* The half width against that. */
-static double ratio_of(const run_state *s, int item)
+/* A half width against that. */
+static double ratio_of(const run_state *s, int channel, int item)
 {
-    double half = s->r->half_width[item];
-    return half == 0.0 ? 0.0 : half / against_of(s, item); /* infinite if that is 0 */
+    double half = s->r->half_width[at(s, channel, item)];
+    return half == 0.0 ? 0.0 : half / against_of(s, channel, item); /* infinite if that is 0 */
 }
 
 /* Half widths of all items: their own, widened where an item seems surer than the others are on
  * average for as many samples. Its samples may just have missed what is rare and bright. */
-static void estimate_half_widths(run_state *s)
+static void estimate_half_widths(run_state *s, int channel)
 {
     double pool = 0.0, count = 0.0; /* mean of n ratio^2 */
+    double *half = s->r->half_width + at(s, channel, 0);
     for (int i = 0; i < s->d->items; i++) {
-        double ratio;
-        s->r->half_width[i] = own_half_width(s, i);
-        ratio               = ratio_of(s, i);
+        half[i]      = own_half_width(s, channel, i);
+        double ratio = ratio_of(s, channel, i);
         if (!(ratio < HUGE_VAL)) /* or is no number */
             continue;
         pool += s->r->samples[i] * ratio * ratio;
@@ -243,10 +254,11 @@ static void estimate_half_widths(run_state *s)
     }
     pool = count > 0.0 ? pool / count : 0.0;
     for (int i = 0; i < s->d->items; i++) {
-        double own = ratio_of(s, i), n = s->r->samples[i];
+        double own = ratio_of(s, channel, i), n = s->r->samples[i];
         double others = n > 0.0 ? pool / n : 0.0;
         if (own * own < others)
-            s->r->half_width[i] = sqrt(0.5 * (own * own + others)) * against_of(s, i);
+            half[i] = sqrt(0.5 * (own * own + others)) * against_of(s, channel, i);
+        half[i] += s->d->bound ? s->d->bound[at(s, channel, i)] : 0.0;
     }
 }
 
@@ -258,10 +270,21 @@ static int compare(const void *a, const void *b)
 
 /* No sample found anything, and they are too few to say that there is nothing: the spread of
  * zeros is 0, and would be taken for certainty. */
-static bool is_in_doubt(const run_state *s, int item)
+static bool is_in_doubt(const run_state *s, int channel, int item)
 {
-    return s->total[item] == 0.0 &&
+    return s->total[at(s, channel, item)] == 0.0 &&
            s->r->samples[item] < (uint64_t)SCRAMBLES * (uint64_t)s->d->dark_samples;
+}
+
+/* The worst of an item's judged channels. */
+static double worst_ratio(const run_state *s, int item)
+{
+    double worst = 0.0;
+    for (int q = 0; q < s->judged; q++) {
+        double ratio = is_in_doubt(s, q, item) ? HUGE_VAL : ratio_of(s, q, item);
+        worst        = ratio <= worst ? worst : ratio; /* no number is no certainty */
+    }
+    return isnan(worst) ? HUGE_VAL : worst;
 }
 
 /* Judges all items; leaves those that are to be sampled on in s->active. */
@@ -273,15 +296,18 @@ static bool judge(run_state *s, lux_error *err)
     if (!ratios)
         return false;
 
-    s->r->floor = floor_of(s);
-    estimate_half_widths(s);
+    for (int q = 0; q < s->judged; q++) {
+        s->floors[q] = floor_of(s, q);
+        estimate_half_widths(s, q);
+    }
+    s->r->floor       = s->floors[0];
     s->r->missed      = 0;
     s->r->complete    = true;
     s->active_count   = 0;
     s->samples_before = s->samples_predicted = 0.0;
     for (int i = 0; i < items; i++) {
         double n  = s->r->samples[i];
-        ratios[i] = is_in_doubt(s, i) ? HUGE_VAL : ratio_of(s, i);
+        ratios[i] = worst_ratio(s, i);
         s->samples_before += n;
         s->samples_predicted += n;
         if (n == 0.0 || s->scrambles < 2)
@@ -369,16 +395,18 @@ bool accuracy_run(arena *a, const accuracy_desc *d, accuracy_result *out, lux_er
 {
     size_t items = (size_t)d->items, values = items * (size_t)d->channels;
     arena scratch = { 0 };
-    run_state s   = { .d = d, .r = out };
+    size_t judged = d->judged ? (size_t)d->judged : 1;
+    run_state s   = { .d = d, .r = out, .judged = (int)judged };
     *out          = (accuracy_result){ .mean       = arena_array(a, double, values, err),
-                                       .half_width = arena_array(a, double, items, err),
+                                       .half_width = arena_array(a, double, judged *items, err),
                                        .samples    = arena_array(a, uint32_t, items, err) };
     s.total       = arena_array(&scratch, double, values, err);
-    s.parts       = arena_array(&scratch, by_scramble, items, err);
+    s.parts       = arena_array(&scratch, by_scramble, judged * items, err);
+    s.floors      = arena_array(&scratch, double, judged, err);
     s.active      = arena_array(&scratch, int, items, err);
-    s.values      = arena_array(&scratch, float, (size_t)d->threads *MOST_CHANNELS *BUNDLE, err);
-    bool good = out->mean && out->half_width && out->samples && s.total && s.parts && s.active &&
-                s.values && run_rounds(&s, err);
+    s.values  = arena_array(&scratch, float, (size_t)d->threads *(size_t)d->channels *BUNDLE, err);
+    bool good = out->mean && out->half_width && out->samples && s.total && s.parts && s.floors &&
+                s.active && s.values && run_rounds(&s, err);
     for (size_t v = 0; good && v < values; v++) {
         uint32_t n   = out->samples[v % items];
         out->mean[v] = n ? s.total[v] / n : 0.0;

@@ -14,6 +14,10 @@
  *
  *     accuracy * max(|mean|, floor)
  *
+ * Several quantities of an unknown may be judged so, each by itself (the layers of groups of
+ * lamps): it is done when all of them are. Bounds of what the samples leave out are added to half
+ * widths.
+ *
  * Who stops at the first small interval stops too early too often, and low: samples that missed
  * what is rare and bright are few, dim and alike. So an unknown is never taken to be much surer
  * than the others are: where its own relative variance v_i (of a sample) is below their mean v, the
@@ -32,10 +36,9 @@
 #include <stdint.h>
 
 enum {
-    SCRAMBLES     = 16,
-    BUNDLE        = 1024, /* samples that are asked for at once, at most */
-    MOST_CHANNELS = 16,
-    MOST_SAMPLES  = 1 << 20, /* a scramble: 16 million an unknown */
+    SCRAMBLES    = 16,
+    BUNDLE       = 1024,    /* samples that are asked for at once, at most */
+    MOST_SAMPLES = 1 << 20, /* a scramble: 16 million an unknown */
 };
 
 typedef struct sample_id {
@@ -49,8 +52,10 @@ typedef enum floor_kind {
 } floor_kind;
 
 typedef struct accuracy_desc {
-    int items, channels; /* channels <= MOST_CHANNELS; channel 0 is the one held to the accuracy */
-    const double *exact; /* what is known of channel 0 besides, an item; NULL: 0 */
+    int items, channels;
+    int judged;          /* the first so many channels are held to the accuracy; 0: one */
+    const double *exact; /* what is known of those besides: judged * items; NULL: 0 */
+    const double *bound; /* how far off the rest may be at most, >= 0: judged * items; NULL: 0 */
     double accuracy;     /* > 0, relative */
     double needed;       /* share of the items that must be done, (0, 1] */
     floor_kind floor;
@@ -76,10 +81,10 @@ const char *run_end_text(run_end end);
 
 typedef struct accuracy_result {
     double *mean;       /* items * channels, channel by channel; without `exact` */
-    double *half_width; /* an item, of channel 0 */
+    double *half_width; /* judged * items, channel by channel; bounds included */
     uint32_t *samples;  /* an item: all its samples */
     int missed;         /* items that are not done */
-    double floor;       /* what `floor` came to */
+    double floor;       /* what `floor` came to, of channel 0 */
     double reached;     /* the accuracy that all but the items beyond `needed` have */
     run_end end;        /* RUN_DONE: the share needed is done */
     bool complete;      /* every item has at least two of its SCRAMBLES sets */

@@ -24,7 +24,6 @@ enum {
     ALBEDO   = NORMAL + 3,
     CHANNELS = ALBEDO + 3,
 };
-_Static_assert((int)CHANNELS <= (int)MOST_CHANNELS, "a channel too many");
 
 enum { PACKETS = BUNDLE / LANES, TILE = 8 /* pixels a side, sampled together */ };
 _Static_assert((int)BUNDLE <= (int)PATHS, "what is asked for at once fits a path bundle");

@@ -118,15 +118,50 @@ TEST(what_is_known_exactly_counts_in_the_accuracy_and_not_in_the_mean)
     arena_clear(&a);
 }
 
+TEST(what_is_left_out_widens_the_interval_by_its_bound)
+{
+    arena a            = { 0 };
+    const double bound = 0.5;
+    fake f             = { .value = by_scramble };
+    accuracy_desc d    = desc_of(&f, 1);
+    d.bound            = &bound;
+    d.accuracy         = 0.2;
+    accuracy_result r  = run(&a, &d);
+    assert_near(r.half_width[0], unit_half + 0.5, 1e-4);
+    assert_near(r.reached, (unit_half + 0.5) / 17.5, 1e-4);
+    arena_clear(&a);
+}
+
+TEST(several_channels_are_judged_each_by_itself)
+{
+    arena a                = { 0 };
+    const double exact[]   = { 17.5, 0.0 }; /* then channel 0 is twice as sure as channel 1 */
+    fake f                 = { .value = by_scramble, .channels = 3 };
+    accuracy_desc d        = desc_of(&f, 1);
+    d.judged               = 2;
+    d.exact                = exact;
+    d.first_samples        = 8;
+    d.accuracy             = 1.5 * unit_half / 35.0;
+    accuracy_result r      = run(&a, &d);
+    const double at_first  = unit_half / 35.0;
+    const double of_second = 2.0 * unit_half / 35.0; /* channel 1 is twice channel 0 */
+    assert_near(r.half_width[0], unit_half, 1e-4);
+    assert_near(r.half_width[1], 2.0 * unit_half, 1e-4);
+    assert_true(at_first <= d.accuracy && of_second > d.accuracy);
+    assert_int_equal(r.missed, 1);
+    assert_near(r.reached, of_second, 1e-4);
+    arena_clear(&a);
+}
+
 static float by_item(sample_id id) { return (float)(id.item + 1); }
 
 TEST(every_channel_has_its_means)
 {
     arena a           = { 0 };
-    fake f            = { .value = by_item, .channels = MOST_CHANNELS };
+    fake f            = { .value = by_item, .channels = 8 };
     accuracy_desc d   = desc_of(&f, 5);
     accuracy_result r = run(&a, &d);
-    for (int c = 0; c < MOST_CHANNELS; c++)
+    for (int c = 0; c < 8; c++)
         for (int i = 0; i < 5; i++)
             assert_near(r.mean[c * 5 + i], (c + 1) * (i + 1), 1e-12);
     arena_clear(&a);
@@ -392,6 +427,8 @@ int main(void)
         cmocka_unit_test(a_half_width_is_student_s_of_the_scrambles_means),
         cmocka_unit_test(an_item_is_not_taken_to_be_much_surer_than_the_others),
         cmocka_unit_test(what_is_known_exactly_counts_in_the_accuracy_and_not_in_the_mean),
+        cmocka_unit_test(what_is_left_out_widens_the_interval_by_its_bound),
+        cmocka_unit_test(several_channels_are_judged_each_by_itself),
         cmocka_unit_test(every_channel_has_its_means),
         cmocka_unit_test(samples_double_until_the_accuracy_is_reached),
         cmocka_unit_test(the_share_needed_may_leave_the_worst_items_behind),

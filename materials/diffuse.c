@@ -31,10 +31,20 @@ static vrgb diffuse_reflect(const material *self, const vvec3 *wo, const vvec3 *
     return vkeep3(lit, vscale(rho, 0.318309886f * cosine));
 }
 
+static vfloat diffuse_pdf(const material *self, const vvec3 *wo, const vvec3 *wi, const vvec3 *n,
+                          vmask active)
+{
+    (void)self, (void)wo;
+    return vkeep(active, vwarp_cosine_pdf(vdot(*wi, *n)));
+}
+
 static vec3 diffuse_albedo(const material *self) { return ((const diffuse *)self)->reflectance; }
 
-static const material_type diffuse_type = { "diffuse", diffuse_scatter, diffuse_reflect,
-                                            diffuse_albedo };
+static const material_type diffuse_type = { .name    = "diffuse",
+                                            .scatter = diffuse_scatter,
+                                            .reflect = diffuse_reflect,
+                                            .pdf     = diffuse_pdf,
+                                            .albedo  = diffuse_albedo };
 
 const material *material_diffuse(arena *a, const diffuse_desc *d, lux_error *err)
 {

@@ -41,6 +41,18 @@ vrgb materials_reflect(const material *const *all, vint index, const vvec3 *wo, 
     return sum;
 }
 
+vfloat materials_pdf(const material *const *all, vint index, const vvec3 *wo, const vvec3 *wi,
+                     const vvec3 *n, vmask active)
+{
+    vfloat sum = { 0 };
+    while (vany(active)) {
+        int m;
+        vmask same = take_first(index, &active, &m);
+        sum        = sum + all[m]->type->pdf(all[m], wo, wi, n, same);
+    }
+    return sum;
+}
+
 vrgb materials_emission(const material *const *all, vint index, vmask active)
 {
     vrgb sum = { 0 };

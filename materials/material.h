@@ -31,6 +31,10 @@ typedef struct material_type {
     vrgb (*reflect)(const material *self, const vvec3 *wo, const vvec3 *wi, const vvec3 *n,
                     vmask active);
 
+    /* The density with which scatter() draws wi, 1/sr. */
+    vfloat (*pdf)(const material *self, const vvec3 *wo, const vvec3 *wi, const vvec3 *n,
+                  vmask active);
+
     vec3 (*albedo)(const material *self); /* of diffuse light, [0, 1] */
 } material_type;
 
@@ -53,6 +57,8 @@ vmask materials_scatter(const material *const *all, vint index, const vvec3 *wo,
                         vfloat s, vfloat t, vmask active, vscatter *out);
 vrgb materials_reflect(const material *const *all, vint index, const vvec3 *wo, const vvec3 *wi,
                        const vvec3 *n, vmask active);
+vfloat materials_pdf(const material *const *all, vint index, const vvec3 *wo, const vvec3 *wi,
+                     const vvec3 *n, vmask active);
 vrgb materials_emission(const material *const *all, vint index, vmask active);
 vrgb materials_albedo(const material *const *all, vint index, vmask active);
 

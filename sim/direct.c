@@ -3,135 +3,204 @@
 
 #include "core/color.h"
 
-/* What a lamp would give the points of one packet. */
-typedef struct candidate {
-    vlight_sample lamp;
-    vfloat share; /* luminance of its irradiance, up to a factor; 0 where it is dark */
-} candidate;
+enum { FEW_LAMPS = 12 }; /* up to so many are all looked at, to choose one */
 
 struct direct_scratch {
     vray rays[DIRECT_PACKETS];
     vmask asked[DIRECT_PACKETS], blocked[DIRECT_PACKETS];
-    vlight_sample lamp[DIRECT_PACKETS];
+    vint spare[DIRECT_PACKETS];
     int64_t ray_count;
-    candidate candidates[]; /* a light */
 };
 
-direct_scratch *direct_scratch_new(arena *a, const scene *s, lux_error *err)
+direct_scratch *direct_scratch_new(arena *a, lux_error *err)
 {
-    size_t lights = (size_t)s->light_count;
-    return arena_alloc(a, 1, sizeof(direct_scratch) + lights * sizeof(candidate),
-                       alignof(direct_scratch), err);
+    return arena_new(a, direct_scratch, err);
 }
 
 int64_t direct_rays(const direct_scratch *w) { return w->ray_count; }
 
-/* What lamp l gives each point before anything stands between; the lanes that it lights. */
-static vmask unshadowed(const light *l, const vsurface *at, vmask active, vlight_sample *out,
-                        vfloat *cosine)
-{
-    vfloat middle = vsplat(0.5f); /* no lamp of this version has places to draw */
-    vmask lit     = light_sample(l, &at->position, middle, middle, active, out);
-    *cosine       = vdot(out->wi, at->normal);
-    return lit & (*cosine > 0.0f);
-}
-
 static vfloat largest(vvec3 v) { return vmax(vabs(v.x), vmax(vabs(v.y), vabs(v.z))); }
 
-/* A ray from the point to just before the lamp, aimed anew from where it starts: near a lamp, the
- * step off the surface is seen. It ends where a surface in which the lamp lies may be rounded to:
- * a few times what a float resolves at the larger of both places. */
-static vray shadow_ray(const vsurface *at, const vlight_sample *lamp)
+/* Aimed anew from where it starts: near a lamp, the step off the surface is seen. It ends where a
+ * surface in which the lamp lies may be rounded to: a few times what a float resolves at the larger
+ * of both places. */
+vray direct_shadow_ray(const vsurface *at, const vvec3 *wi, vfloat dist)
 {
     const float roundings = 8.0f * 0x1p-24f;
-    vvec3 start           = vray_start(at, &lamp->wi);
-    vmask far             = lamp->dist == INFINITY;
-    vvec3 place           = valong(at->position, lamp->wi, lamp->dist);
+    vvec3 start           = vray_start(at, wi);
+    vmask far             = dist == INFINITY;
+    vvec3 place           = valong(at->position, *wi, dist);
     vvec3 to              = vsub(place, start);
-    vfloat dist           = vlength(to);
-    vfloat before         = roundings * vmax(largest(place), vmax(largest(start), dist));
+    vfloat length         = vlength(to);
+    vfloat before         = roundings * vmax(largest(place), vmax(largest(start), length));
     return (vray){ .origin    = start,
-                   .direction = vselect3(far, lamp->wi, vscale(to, 1.0f / dist)),
-                   .reach     = vselect(far, lamp->dist, dist - before) };
+                   .direction = vselect3(far, *wi, vscale(to, 1.0f / length)),
+                   .reach     = vselect(far, dist, length - before) };
 }
 
 static void trace_shadows(const scene *s, direct_scratch *w, int packets, ray_hint hint)
 {
+    int64_t before = w->ray_count;
     for (int k = 0; k < packets; k++)
         w->ray_count += __builtin_popcount((unsigned)vbits(w->asked[k]));
-    world_any_hit(s->world, w->rays, w->asked, packets, hint, w->blocked);
+    if (w->ray_count == before)
+        return;
+    world_any_hit(s->world, w->rays, w->asked, packets, hint, s->owners ? w->spare : NULL,
+                  w->blocked);
 }
 
-void direct_all(const scene *s, direct_scratch *w, const vsurface *at, const vmask *active,
-                int packets, vrgb *e)
+static const scene_light *info_of(const scene *s, int l)
 {
+    static const scene_light glow = { .dimming = 1.0f };
+    return l < s->light_count ? &s->light_info[l] : &glow;
+}
+
+/* Takes over what light l gives the lanes of packet k, and sets out their shadow rays. */
+static void take(const scene *s, direct_scratch *w, const direct_batch *b, int k, int l,
+                 vmask lanes, vfloat chance, direct_pick *out)
+{
+    const vsurface *at = &b->at[k];
+    vlight_sample lamp;
+    vmask lit = light_sample(s->lights[l], &at->position, b->u[k].x, b->u[k].y, lanes, &lamp);
+    if (!b->all_around)
+        lit = lit & (vdot(lamp.wi, at->normal) > 0.0f);
+    vray ray   = direct_shadow_ray(at, &lamp.wi, lamp.dist);
+    out->wi    = vselect3(lit, lamp.wi, out->wi);
+    out->e     = vselect3(lit, vscale(lamp.e, 1.0f / chance), out->e);
+    out->pdf   = vselect(lit, lamp.pdf * chance, out->pdf);
+    out->light = vselect_int(lit, vsplat_int(l), out->light);
+
+    w->rays[k].origin    = vselect3(lit, ray.origin, w->rays[k].origin);
+    w->rays[k].direction = vselect3(lit, ray.direction, w->rays[k].direction);
+    w->rays[k].reach     = vselect(lit, ray.reach, w->rays[k].reach);
+    w->spare[k]          = vselect_int(lit, vsplat_int(info_of(s, l)->owner), w->spare[k]);
+    if (!info_of(s, l)->clear)
+        w->asked[k] = w->asked[k] | lit;
+}
+
+static void begin_pick(direct_scratch *w, int k, direct_pick *out)
+{
+    *out        = (direct_pick){ .light = vsplat_int(-1) };
+    w->asked[k] = (vmask){ 0 };
+    w->rays[k]  = (vray){ 0 };
+    w->spare[k] = vsplat_int(0);
+}
+
+static void end_picks(const scene *s, direct_scratch *w, int packets, ray_hint hint,
+                      direct_pick *out)
+{
+    trace_shadows(s, w, packets, hint);
     for (int k = 0; k < packets; k++)
-        e[k] = (vrgb){ 0 };
-    for (int l = 0; l < s->light_count; l++) {
-        vfloat cosine[DIRECT_PACKETS];
-        for (int k = 0; k < packets; k++) {
-            w->asked[k] = unshadowed(s->lights[l], &at[k], active[k], &w->lamp[k], &cosine[k]);
-            w->rays[k]  = shadow_ray(&at[k], &w->lamp[k]);
-        }
-        trace_shadows(s, w, packets, RAYS_COHERENT);
-        for (int k = 0; k < packets; k++) {
-            vmask lit = w->asked[k] & ~w->blocked[k];
-            e[k]      = vadd(e[k], vkeep3(lit, vscale(w->lamp[k].e, cosine[k])));
-        }
-    }
+        out[k].e = vkeep3(~(w->asked[k] & w->blocked[k]), out[k].e);
 }
 
-/* Which lamp each lane draws, -1 for none, and 1 / the probability of that. */
-static vint draw(const scene *s, direct_scratch *w, const vsurface *at, vmask active, vfloat pick,
-                 vfloat *inverse_probability)
+void direct_lamp(const scene *s, direct_scratch *w, int l, const direct_batch *b, direct_pick *out)
 {
-    vfloat total = { 0 };
+    for (int k = 0; k < b->packets; k++) {
+        begin_pick(w, k, &out[k]);
+        take(s, w, b, k, l, b->active[k], vsplat(1.0f), &out[k]);
+    }
+    end_picks(s, w, b->packets, RAYS_COHERENT, out);
+}
+
+/* ---- one of many ----------------------------------------------------------------------------- */
+
+vfloat direct_weight(const light *l, const vvec3 *p, const vvec3 *n, vmask active)
+{
+    if (l->type->weight)
+        return l->type->weight(l, p, n, active);
+    vlight_sample lamp;
+    vmask lit     = light_sample(l, p, vsplat(0.5f), vsplat(0.5f), active, &lamp);
+    vfloat cosine = vdot(lamp.wi, *n);
+    return vkeep(lit & (cosine > 0.0f), vrgb_luminance(lamp.e) * cosine);
+}
+
+/* Which of few lamps each lane draws, -1 for none, and with what probability. */
+static vint choose_of_few(const scene *s, const vsurface *at, vmask active, vfloat pick,
+                          vfloat *chance)
+{
+    vfloat weight[FEW_LAMPS], total = { 0 };
     for (int l = 0; l < s->light_count; l++) {
-        candidate *c = &w->candidates[l];
-        vfloat cosine;
-        vmask lit = unshadowed(s->lights[l], at, active, &c->lamp, &cosine);
-        c->share  = vkeep(lit, vrgb_luminance(c->lamp.e) * cosine);
-        total     = total + c->share;
+        weight[l] = direct_weight(s->lights[l], &at->position, &at->normal, active);
+        total     = total + weight[l];
     }
 
     /* The first lamp at which the running sum reaches pick * total: it reaches all of it at last */
     vint drawn   = vsplat_int(-1);
     vfloat share = { 0 }, sum = { 0 }, threshold = pick * total;
     for (int l = 0; l < s->light_count; l++) {
-        const candidate *c = &w->candidates[l];
-        sum                = sum + c->share;
-        vmask this         = active & (drawn < 0) & (c->share > 0.0f) & (sum >= threshold);
-        drawn              = vselect_int(this, vsplat_int(l), drawn);
-        share              = vselect(this, c->share, share);
+        sum        = sum + weight[l];
+        vmask this = active & (drawn < 0) & (weight[l] > 0.0f) & (sum >= threshold);
+        drawn      = vselect_int(this, vsplat_int(l), drawn);
+        share      = vselect(this, weight[l], share);
     }
-    *inverse_probability = vkeep(drawn >= 0, total / share);
+    *chance = vkeep(drawn >= 0, share / total);
     return drawn;
 }
 
-void direct_one(const scene *s, direct_scratch *w, const vsurface *at, const vmask *active,
-                const vfloat *pick, int packets, direct_pick *out)
+static bool are_few(const scene *s, const direct_batch *b)
 {
-    for (int k = 0; k < packets; k++) {
-        vfloat inverse_probability;
-        vint drawn = draw(s, w, &at[k], active[k], pick[k], &inverse_probability);
-        vmask left = active[k] & (drawn >= 0);
-        out[k]     = (direct_pick){ 0 };
+    return !b->glow_alone && !b->all_around && s->emitter_count == 0 && s->light_count <= FEW_LAMPS;
+}
 
-        vfloat reach = { 0 };
-        w->asked[k]  = left;
+/* The normal by which lights are chosen: none where light from all around counts. */
+static vvec3 horizon_of(const vsurface *at, bool all_around)
+{
+    return all_around ? (vvec3){ 0 } : at->normal;
+}
+
+static vint choose(const scene *s, const direct_batch *b, int k, vfloat *chance)
+{
+    if (are_few(s, b))
+        return choose_of_few(s, &b->at[k], b->active[k], b->u[k].z, chance);
+    const light_tree *tree = b->glow_alone ? s->emitter_tree : s->tree;
+    if (!tree) {
+        *chance = vsplat(0.0f);
+        return vsplat_int(-1);
+    }
+    vfloat rest;
+    vvec3 n = horizon_of(&b->at[k], b->all_around);
+    vint drawn =
+        vlight_tree_choose(tree, &b->at[k].position, &n, b->u[k].z, b->active[k], chance, &rest);
+    return b->glow_alone ? vselect_int(drawn >= 0, drawn + s->light_count, drawn) : drawn;
+}
+
+void direct_one(const scene *s, direct_scratch *w, const direct_batch *b, direct_pick *out)
+{
+    for (int k = 0; k < b->packets; k++) {
+        vfloat chance;
+        vint drawn = choose(s, b, k, &chance);
+        vmask left = b->active[k] & (drawn >= 0);
+        begin_pick(w, k, &out[k]);
         while (vany(left)) {
             int l      = lane(drawn, __builtin_ctz((unsigned)vbits(left)));
             vmask same = left & (drawn == l);
             left       = left & ~same;
-
-            const vlight_sample *lamp = &w->candidates[l].lamp;
-            out[k].wi                 = vselect3(same, lamp->wi, out[k].wi);
-            out[k].e = vselect3(same, vscale(lamp->e, inverse_probability), out[k].e);
-            reach    = vselect(same, lamp->dist, reach);
+            take(s, w, b, k, l, same, chance, &out[k]);
         }
-        w->rays[k] = shadow_ray(&at[k], &(vlight_sample){ .wi = out[k].wi, .dist = reach });
     }
-    trace_shadows(s, w, packets, RAYS_INCOHERENT);
-    for (int k = 0; k < packets; k++)
-        out[k].e = vkeep3(w->asked[k] & ~w->blocked[k], out[k].e);
+    end_picks(s, w, b->packets, RAYS_INCOHERENT, out);
+}
+
+vfloat direct_glow_pdf(const scene *s, const vsurface *at, const vvec3 *wi, vint emitter,
+                       bool glow_alone, bool all_around, vmask active)
+{
+    const light_tree *tree = glow_alone ? s->emitter_tree : s->tree;
+    vmask left             = active & (emitter >= 0);
+    if (!tree || !vany(left))
+        return (vfloat){ 0 };
+    vvec3 n       = horizon_of(at, all_around);
+    vint index    = glow_alone ? emitter : emitter + s->light_count;
+    vfloat chance = vlight_tree_probability(tree, &at->position, &n, index, left);
+    vfloat pdf    = { 0 };
+    while (vany(left)) {
+        int e      = lane(emitter, __builtin_ctz((unsigned)vbits(left)));
+        vmask same = left & (emitter == e);
+        left       = left & ~same;
+        vlight_hit hit;
+        const light *l = s->lights[s->light_count + e];
+        vmask met      = l->type->hit(l, &at->position, wi, same, &hit);
+        pdf            = vselect(met, hit.pdf, pdf);
+    }
+    return pdf * chance;
 }

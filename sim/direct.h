@@ -1,32 +1,58 @@
-/* sim/direct.h -- light that reaches a point straight from the lamps.
+/* sim/direct.h -- light that reaches a point straight from lamps and glowing surfaces.
  *
  * Points are surfaces of core/world.h (sensors too): a position with its error, and the normal
- * of the side that is lit. Results are irradiance, W/m^2. Lanes outside `active` come back zero.
+ * of the side that is lit. Lanes outside `active` come back zero. In a layered scene everything is
+ * undimmed: who adds up multiplies by scene_light.dimming.
  */
 #ifndef SIM_DIRECT_H
 #define SIM_DIRECT_H
 
+#include "core/sampler.h"
 #include "sim/scene.h"
 
 /* Scratch of one thread for batches of at most DIRECT_PACKETS packets. */
 enum { DIRECT_PACKETS = 256 };
 typedef struct direct_scratch direct_scratch;
-direct_scratch *direct_scratch_new(arena *a, const scene *s, lux_error *err);
+direct_scratch *direct_scratch_new(arena *a, lux_error *err);
 
-/* The sum over all lamps, each with its own shadow rays: without noise, since every lamp of this
- * version is a point or far away. */
-void direct_all(const scene *s, direct_scratch *w, const vsurface *at, const vmask *active,
-                int packets, vrgb *e);
+/* Points that ask, and the random numbers that they do it by: u.x and u.y pick the place on a
+ * light, u.z the light. */
+typedef struct direct_batch {
+    const vsurface *at;
+    const vmask *active;
+    const vsample4 *u;
+    int packets;
+    bool glow_alone; /* glowing surfaces, no lamps */
+    bool all_around; /* light from below the horizon counts too */
+} direct_batch;
 
-/* One lamp drawn for each point, in proportion to the irradiance (luminance) it would give if
- * nothing stood between: an unbiased estimate of the sum by one shadow ray. `pick` in [0,1)
- * draws. Of the lamp: the direction to it and e / p on a surface facing it, shadow applied. */
+/* Light from one place, as drawn for each point. */
 typedef struct direct_pick {
     vvec3 wi;
-    vrgb e; /* W/m^2, facing wi, divided by the probability of the choice; 0 in shadow */
+    vrgb e;     /* W/m^2, facing wi, divided by all probabilities; 0 in shadow */
+    vint light; /* of scene.lights; -1: none */
+    vfloat pdf; /* 1/sr, with which wi is drawn; INFINITY: no ray finds the light by itself */
 } direct_pick;
-void direct_one(const scene *s, direct_scratch *w, const vsurface *at, const vmask *active,
-                const vfloat *pick, int packets, direct_pick *out);
+
+/* Lamp l for all points. */
+void direct_lamp(const scene *s, direct_scratch *w, int l, const direct_batch *b, direct_pick *out);
+
+/* One light drawn for each point, by what the lights would give if nothing stood between (few
+ * lamps) or by their places and directions (light_tree.h): an unbiased estimate of the sum of all
+ * by one shadow ray. */
+void direct_one(const scene *s, direct_scratch *w, const direct_batch *b, direct_pick *out);
+
+/* The density with which direct_one() draws the direction wi to the emitter at points with those
+ * normals, 1/sr. */
+vfloat direct_glow_pdf(const scene *s, const vsurface *at, const vvec3 *wi, vint emitter,
+                       bool glow_alone, bool all_around, vmask active);
+
+/* About what lamp l gives a surface with normal n at p, as luminance, W/m^2, nothing in between;
+ * above 0 wherever it may give light. */
+vfloat direct_weight(const light *l, const vvec3 *p, const vvec3 *n, vmask active);
+
+/* A ray from the point to just before the place that was drawn. */
+vray direct_shadow_ray(const vsurface *at, const vvec3 *wi, vfloat dist);
 
 /* Shadow rays that were traced with w so far. */
 int64_t direct_rays(const direct_scratch *w);

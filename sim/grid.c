@@ -5,33 +5,46 @@
 #include "core/parallel.h"
 #include "core/sampler.h"
 #include "sim/accuracy.h"
-#include "sim/direct.h"
+#include "sim/direct_sensor.h"
 #include "sim/path.h"
 #include "sim/probes.h"
 
 #include <float.h>
+#include <stdatomic.h>
 #include <string.h>
 
-/* Of accuracy_run(): all that is sampled, what of it is direct, what sees a reflecting surface. */
-enum { SAMPLED, GLOW, MET, CHANNELS };
+/* Of accuracy_run(): all that is sampled, of everything and of each layer; what of everything is
+ * direct; what sees a reflecting surface; what of each layer is direct. */
+enum { SAMPLED, LAYERS };
 
 typedef struct thread_scratch {
-    direct_scratch *direct;
+    direct_sensor *direct;
     path_tracer *paths;
     path_bundle bundle;
-    vsurface at[DIRECT_PACKETS]; /* for direct_all() */
-    vmask active[DIRECT_PACKETS];
-    vrgb e[DIRECT_PACKETS];
+    sensor_sum *sums;
+    float lamp_e[BUNDLE]; /* W/m^2 of each sample, and which lamp's it is */
+    int32_t lamp[BUNDLE];
 } thread_scratch;
 
 typedef struct grid_run_state {
     const scene *s;
     const run_options *o;
-    const grid_result *r;
+    grid_result *r;
     thread_scratch *threads;
-    double *direct; /* lx, initial, from lamps */
-    uint32_t seed;  /* of this grid */
+    int layers;            /* 0 unless the scene is layered */
+    double *known, *bound; /* lx, initial: of everything, then of each layer, sensor by sensor */
+    path_options paths;
+    atomic_bool lamps_left; /* some lamps take samples */
+    uint32_t seed;          /* of this grid */
 } grid_run_state;
+
+static int straight_channel(const grid_run_state *g) { return LAYERS + g->layers; }
+static int met_channel(const grid_run_state *g) { return straight_channel(g) + 1; }
+static int layer_straight_channel(const grid_run_state *g, int layer)
+{
+    return met_channel(g) + 1 + layer;
+}
+static int channel_count(const grid_run_state *g) { return layer_straight_channel(g, g->layers); }
 
 /* ---- sensors --------------------------------------------------------------------------------- */
 
@@ -92,12 +105,11 @@ static float place_error(const scene *s, vec3 p)
 /* ---- light that needs no samples ------------------------------------------------------------- */
 
 /* A packet of sensors, of which those behind the last are asleep. */
-static vmask place_sensors(const grid_run_state *g, int first, vsurface *at)
+static vmask place_sensors(const grid_run_state *g, const int *which, int count, vsurface *at)
 {
     float p[3][LANES], n[3][LANES], error[LANES];
     for (int i = 0; i < LANES; i++) {
-        int j                  = first + i < g->r->sensor_count ? first + i : first;
-        const grid_sensor *one = &g->r->sensors[j];
+        const grid_sensor *one = &g->r->sensors[which[i < count ? i : 0]];
         vec3 place = scene_place(g->s, one->at), normal = d3_to_float(one->normal);
         p[0][i] = place.x, p[1][i] = place.y, p[2][i] = place.z;
         n[0][i] = normal.x, n[1][i] = normal.y, n[2][i] = normal.z;
@@ -106,64 +118,136 @@ static vmask place_sensors(const grid_run_state *g, int first, vsurface *at)
     *at = (vsurface){ .position = { vload(p[0]), vload(p[1]), vload(p[2]) },
                       .normal   = { vload(n[0]), vload(n[1]), vload(n[2]) },
                       .error    = vload(error) };
-    return (vlane_index() + first) < g->r->sensor_count;
+    return vlane_index() < count;
 }
 
-static void direct_chunk(void *context, int item, int thread)
+enum { CHUNK = 64 }; /* sensors */
+
+static void sum_packet(grid_run_state *g, thread_scratch *w, int first)
+{
+    int which[LANES], n = g->r->sensor_count, count = n - first < LANES ? n - first : LANES;
+    for (int i = 0; i < LANES; i++)
+        which[i] = first + (i < count ? i : 0);
+    vsurface at;
+    vmask active  = place_sensors(g, which, count, &at);
+    vmask pending = direct_sensor_sum(w->direct, &at, active, (uint32_t)first, w->sums);
+    if (vany(pending))
+        atomic_store(&g->lamps_left, true);
+    for (int i = 0; i < count; i++)
+        for (int c = 0; c < LAYERS + g->layers; c++) {
+            size_t to    = (size_t)c * (size_t)n + (size_t)(first + i);
+            g->known[to] = LUMENS_PER_WATT * (double)lane(w->sums[c].e, i);
+            g->bound[to] = LUMENS_PER_WATT * (double)lane(w->sums[c].bound, i);
+        }
+}
+
+static void sum_chunk(void *context, int item, int thread)
 {
     grid_run_state *g = context;
-    thread_scratch *w = &g->threads[thread];
-    int first = item * DIRECT_PACKETS * LANES, packets = 0;
-    for (; packets < DIRECT_PACKETS && first + packets * LANES < g->r->sensor_count; packets++)
-        w->active[packets] = place_sensors(g, first + packets * LANES, &w->at[packets]);
-    direct_all(g->s, w->direct, w->at, w->active, packets, w->e);
-    for (int j = 0; j < packets * LANES && first + j < g->r->sensor_count; j++)
-        g->direct[first + j] =
-            LUMENS_PER_WATT * (double)lane(vrgb_luminance(w->e[j / LANES]), j % LANES);
+    int end           = (item + 1) * CHUNK;
+    for (int first = item * CHUNK; first < end && first < g->r->sensor_count; first += LANES)
+        sum_packet(g, &g->threads[thread], first);
 }
 
 /* ---- light that is sampled ------------------------------------------------------------------- */
+
+/* Lamps that take samples: those of the same sensor stand one after the other, and a packet of
+ * sensors is looked at together. */
+static void sample_lamps(grid_run_state *g, thread_scratch *w, const sample_id *ids, int count)
+{
+    for (int from = 0, to; from < count; from = to) {
+        int which[LANES], begin[LANES + 1], sensors = 0;
+        for (to = from; to < count; to++) {
+            if (to > from && ids[to].item == ids[to - 1].item)
+                continue;
+            if (sensors == LANES)
+                break;
+            begin[sensors]   = to;
+            which[sensors++] = (int)ids[to].item;
+        }
+        begin[sensors] = to;
+        vsurface at;
+        vmask active = place_sensors(g, which, sensors, &at);
+        direct_sensor_prepare(w->direct, &at, active);
+        for (int i = 0; i < sensors; i++) {
+            int at_i = begin[i];
+            direct_sensor_draw(w->direct, i, w->bundle.index + at_i, w->bundle.seed + at_i,
+                               begin[i + 1] - at_i, w->lamp_e + at_i, w->lamp + at_i);
+        }
+    }
+}
+
+static float lux_of(const path_sums *sums, int i)
+{
+    vec3 e = { (*sums)[0][i], (*sums)[1][i], (*sums)[2][i] };
+    return (float)LUMENS_PER_WATT * rgb_luminance(e);
+}
+
+static void take_sample(const grid_run_state *g, const thread_scratch *w, int i, float *values)
+{
+    const path_bundle *b = &w->bundle;
+    int lamp             = w->lamp[i];
+    float lux            = lamp < 0 ? 0.0f : (float)LUMENS_PER_WATT * w->lamp_e[i];
+    float dimming        = lamp < 0 ? 1.0f : g->s->light_info[lamp].dimming;
+    float straight       = dimming * lux + lux_of(&b->direct, i);
+
+    values[SAMPLED * BUNDLE + i]             = straight + lux_of(&b->indirect, i);
+    values[straight_channel(g) * BUNDLE + i] = straight;
+    values[met_channel(g) * BUNDLE + i]      = b->met[i];
+    for (int l = 0; l < g->layers; l++) {
+        float own = lamp >= 0 && g->s->light_info[lamp].group == l ? lux : 0.0f;
+        values[(LAYERS + l) * BUNDLE + i] = own + lux_of(&b->layers[l], i);
+        values[layer_straight_channel(g, l) * BUNDLE + i] =
+            own + lux_of(&b->layers[g->layers + l], i);
+    }
+}
 
 static void sample_sensors(void *context, int thread, const sample_id *ids, int count,
                            float *values)
 {
     grid_run_state *g = context;
-    path_bundle *b    = &g->threads[thread].bundle;
+    thread_scratch *w = &g->threads[thread];
+    path_bundle *b    = &w->bundle;
     b->count          = count;
     for (int i = 0; i < count; i++) {
         const grid_sensor *one = &g->r->sensors[ids[i].item];
+        uint32_t cell          = (uint32_t)g->r->cell[ids[i].item];
         vec3 place = scene_place(g->s, one->at), normal = d3_to_float(one->normal);
         b->x[i] = place.x, b->y[i] = place.y, b->z[i] = place.z;
         b->nx[i] = normal.x, b->ny[i] = normal.y, b->nz[i] = normal.z;
         b->error[i] = place_error(g->s, place);
         b->index[i] = ids[i].index;
-        b->seed[i]  = hash_combine_u32(hash_combine_u32(g->seed, ids[i].item), ids[i].scramble);
+        b->seed[i]  = hash_combine_u32(hash_combine_u32(g->seed, cell), ids[i].scramble);
     }
-    path_trace(g->threads[thread].paths, b, false, !g->o->direct_only);
-    for (int i = 0; i < count; i++) {
-        vec3 glow                    = { b->glow[0][i], b->glow[1][i], b->glow[2][i] };
-        vec3 rest                    = { b->indirect[0][i], b->indirect[1][i], b->indirect[2][i] };
-        float straight               = (float)LUMENS_PER_WATT * rgb_luminance(glow);
-        values[MET * BUNDLE + i]     = b->met[i];
-        values[GLOW * BUNDLE + i]    = straight;
-        values[SAMPLED * BUNDLE + i] = straight + (float)LUMENS_PER_WATT * rgb_luminance(rest);
-    }
+    if (atomic_load(&g->lamps_left))
+        sample_lamps(g, w, ids, count);
+    else
+        memset(w->lamp, -1, sizeof w->lamp);
+    path_trace(w->paths, b, &g->paths);
+    for (int i = 0; i < count; i++)
+        take_sample(g, w, i, values);
 }
 
 /* ---- a run ----------------------------------------------------------------------------------- */
 
 static bool make_threads(grid_run_state *g, arena *a, lux_error *err)
 {
-    g->threads = arena_array(a, thread_scratch, (size_t)g->o->threads, err);
-    if (!g->threads)
-        return false;
-    for (int t = 0; t < g->o->threads; t++) {
-        g->threads[t].direct = direct_scratch_new(a, g->s, err);
-        g->threads[t].paths  = g->threads[t].direct ? path_tracer_new(a, g->s, err) : NULL;
-        if (!g->threads[t].paths)
+    bool in_room = true;
+    for (int k = 0; k < g->r->sensor_count && in_room; k++)
+        in_room = scene_is_in_room(g->s, g->r->sensors[k].at);
+    sensor_ask ask = { g->r->grid->quantity, g->r->asked, in_room, g->seed };
+    g->threads     = arena_array(a, thread_scratch, (size_t)g->o->threads, err);
+    for (int t = 0; g->threads && t < g->o->threads; t++) {
+        thread_scratch *w = &g->threads[t];
+        w->direct         = direct_sensor_new(a, g->s, &ask, err);
+        w->paths          = w->direct ? path_tracer_new(a, g->s, err) : NULL;
+        w->sums = w->paths ? arena_array(a, sensor_sum, (size_t)(LAYERS + g->layers), err) : NULL;
+        if (g->layers)
+            w->bundle.layers = arena_array(a, path_sums, 2 * (size_t)g->layers, err);
+        if (!w->sums || (g->layers && !w->bundle.layers))
             return false;
     }
-    return true;
+    return g->threads != NULL;
 }
 
 static void summarise(grid_result *r)
@@ -202,11 +286,37 @@ static bool all_finite(const scene *s, const grid_result *r, lux_error *err)
     return true;
 }
 
+static void take_results(const grid_run_state *g, const accuracy_result *got, grid_result *r)
+{
+    double maintenance = g->s->study->maintenance;
+    size_t n           = (size_t)r->sensor_count;
+    for (size_t k = 0; k < n; k++) {
+        double straight   = got ? got->mean[(size_t)straight_channel(g) * n + k] : 0.0;
+        double all        = got ? got->mean[SAMPLED * n + k] : 0.0;
+        double half       = got ? got->half_width[k] : g->bound[k];
+        r->direct[k]      = maintenance * (g->known[k] + straight);
+        r->indirect[k]    = maintenance * fmax(all - straight, 0.0);
+        r->illuminance[k] = r->direct[k] + r->indirect[k];
+        r->half_width[k]  = maintenance * half;
+        r->in_doubt += got && all == 0.0 && got->mean[(size_t)met_channel(g) * n + k] > 0.0;
+        for (int l = 0; l < g->layers; l++) {
+            size_t at            = (size_t)(LAYERS + l) * n + k;
+            size_t straight_at   = (size_t)layer_straight_channel(g, l) * n + k;
+            const grid_layer *to = &r->layers[l];
+            to->illuminance[k]   = maintenance * (g->known[at] + (got ? got->mean[at] : 0.0));
+            to->direct[k]     = maintenance * (g->known[at] + (got ? got->mean[straight_at] : 0.0));
+            to->half_width[k] = maintenance * (got ? got->half_width[at] : g->bound[at]);
+        }
+    }
+}
+
 static bool sample_rest(arena *a, grid_run_state *g, grid_result *r, lux_error *err)
 {
     accuracy_desc d = { .items         = r->sensor_count,
-                        .channels      = CHANNELS,
-                        .exact         = g->direct,
+                        .channels      = channel_count(g),
+                        .judged        = LAYERS + g->layers,
+                        .exact         = g->known,
+                        .bound         = g->bound,
                         .accuracy      = r->asked,
                         .needed        = 1.0,
                         .floor         = FLOOR_MEAN,
@@ -223,16 +333,7 @@ static bool sample_rest(arena *a, grid_run_state *g, grid_result *r, lux_error *
     if (!got.complete)
         return failed(err, ERR_INTERRUPTED, "interrupted before grid %s had its first results",
                       r->grid->name);
-    double maintenance = g->s->study->maintenance;
-    for (int k = 0; k < r->sensor_count; k++) {
-        double glow       = got.mean[GLOW * r->sensor_count + k];
-        double all        = got.mean[SAMPLED * r->sensor_count + k];
-        r->direct[k]      = maintenance * (g->direct[k] + glow);
-        r->indirect[k]    = maintenance * fmax(all - glow, 0.0);
-        r->illuminance[k] = r->direct[k] + r->indirect[k];
-        r->half_width[k]  = maintenance * got.half_width[k];
-        r->in_doubt += all == 0.0 && got.mean[MET * r->sensor_count + k] > 0.0;
-    }
+    take_results(g, &got, r);
     r->missed = got.missed;
     if (r->in_doubt && !r->left_to_chance && !g->o->direct_only)
         r->left_to_chance = "some sensors see surfaces from where no sample found any light back";
@@ -241,11 +342,42 @@ static bool sample_rest(arena *a, grid_run_state *g, grid_result *r, lux_error *
     return true;
 }
 
-static void take_direct_alone(const grid_run_state *g, grid_result *r)
+static bool make_results(arena *a, const grid_run_state *g, grid_result *out, lux_error *err)
 {
-    for (int k = 0; k < r->sensor_count; k++)
-        r->illuminance[k] = r->direct[k] = g->s->study->maintenance * g->direct[k];
-    r->end = RUN_DONE;
+    size_t n         = (size_t)out->sensor_count;
+    double **all[]   = { &out->illuminance, &out->direct, &out->indirect, &out->half_width };
+    out->layer_count = g->layers;
+    out->layers      = arena_array(a, grid_layer, (size_t)g->layers + 1, err);
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        if (!out->layers || !(*all[i] = arena_array(a, double, n, err)))
+            return false;
+    for (int l = 0; l < g->layers; l++) {
+        grid_layer *to  = &out->layers[l];
+        to->illuminance = arena_array(a, double, n, err);
+        to->direct      = to->illuminance ? arena_array(a, double, n, err) : NULL;
+        to->half_width  = to->direct ? arena_array(a, double, n, err) : NULL;
+        if (!to->half_width)
+            return false;
+    }
+    return true;
+}
+
+static bool run(arena *a, grid_run_state *g, grid_result *out, lux_error *err)
+{
+    const scene *s = g->s;
+    int chunks     = (out->sensor_count + CHUNK - 1) / CHUNK;
+    progress_begin(g->o->progress, out->grid->name);
+    parallel_for(chunks, g->o->threads, sum_chunk, g, g->o->progress ? g->o->progress->stop : NULL);
+    if (progress_stopped(g->o->progress))
+        return failed(err, ERR_INTERRUPTED, "interrupted before grid %s had its first results",
+                      out->grid->name);
+    bool lit      = s->light_count > 0 || s->glows;
+    bool reflects = s->reflects && lit && !g->o->direct_only;
+    if (s->glows || reflects || atomic_load(&g->lamps_left))
+        return sample_rest(a, g, out, err);
+    take_results(g, NULL, out);
+    out->end = RUN_DONE;
+    return true;
 }
 
 bool grid_run(arena *a, const scene *s, const study_grid *grid, const run_options *o,
@@ -254,40 +386,28 @@ bool grid_run(arena *a, const scene *s, const study_grid *grid, const run_option
     double begun     = clock_seconds();
     arena scratch    = { 0 };
     uint32_t seed    = hash_text_u32(hash_u32(o->seed), grid->name);
-    grid_run_state g = { .s = s, .o = o, .r = out, .seed = seed };
+    grid_run_state g = { .s      = s,
+                         .o      = o,
+                         .r      = out,
+                         .layers = s->layered ? s->group_count : 0,
+                         .paths  = { .quantity = grid->quantity, .bounce = !o->direct_only },
+                         .seed   = seed };
 
-    bool good           = grid_sensors(a, grid, out, err);
-    size_t n            = (size_t)out->sensor_count;
+    bool good           = grid_sensors(a, s, grid, out, err);
+    size_t n            = (size_t)out->sensor_count * (size_t)(LAYERS + g.layers);
     out->asked          = !isnan(o->accuracy)          ? o->accuracy
                           : !isnan(s->study->accuracy) ? s->study->accuracy
                                                        : GRID_DEFAULT_PERCENT / 100.0;
     out->left_to_chance = scene_left_to_chance(s, o->direct_only);
-    out->illuminance    = good ? arena_array(a, double, n, err) : NULL;
-    out->direct         = out->illuminance ? arena_array(a, double, n, err) : NULL;
-    out->indirect       = out->direct ? arena_array(a, double, n, err) : NULL;
-    out->half_width     = out->indirect ? arena_array(a, double, n, err) : NULL;
-    g.direct            = out->half_width ? arena_array(&scratch, double, n, err) : NULL;
-    good                = g.direct && make_threads(&g, &scratch, err);
-
-    if (good) {
-        int per = DIRECT_PACKETS * LANES, chunks = (out->sensor_count + per - 1) / per;
-        progress_begin(o->progress, grid->name);
-        parallel_for(chunks, o->threads, direct_chunk, &g, o->progress ? o->progress->stop : NULL);
-        bool reflects      = s->reflects && s->light_count > 0 && !o->direct_only;
-        bool needs_samples = s->glows || reflects;
-        if (progress_stopped(o->progress))
-            good = failed(err, ERR_INTERRUPTED, "interrupted before grid %s had its first results",
-                          grid->name);
-        else if (needs_samples)
-            good = sample_rest(a, &g, out, err);
-        else
-            take_direct_alone(&g, out);
-    }
-    good = good && all_finite(s, out, err);
+    good                = good && make_results(a, &g, out, err);
+    g.known             = good ? arena_array(&scratch, double, n, err) : NULL;
+    g.bound             = g.known ? arena_array(&scratch, double, n, err) : NULL;
+    good                = g.bound && make_threads(&g, &scratch, err) && run(a, &g, out, err) &&
+           all_finite(s, out, err);
     if (good) {
         summarise(out);
         for (int t = 0; t < o->threads; t++)
-            out->rays += direct_rays(g.threads[t].direct) + path_rays(g.threads[t].paths);
+            out->rays += direct_sensor_rays(g.threads[t].direct) + path_rays(g.threads[t].paths);
         out->seconds = clock_seconds() - begun;
     }
     arena_clear(&scratch);

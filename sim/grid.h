@@ -21,13 +21,23 @@ typedef struct grid_sensor {
     dvec3 normal; /* unit */
 } grid_sensor;
 
+/* What one group of lamps gives, undimmed: lx, a sensor. */
+typedef struct grid_layer {
+    double *illuminance, *direct, *half_width;
+} grid_layer;
+
 /* All light is in lux, maintenance applied. */
 typedef struct grid_result {
     const study_grid *grid;
-    int columns, rows; /* sensors along u and v; a list of points has one row */
+    int columns, rows; /* cells along u and v; a list of points has one row */
     int sensor_count;
-    const grid_sensor *sensors;                           /* x fastest: row * columns + column */
+    const grid_sensor *sensors; /* in the order of their cells */
+    const int *cell;            /* of each: row * columns + column */
+    int left_out;               /* cells whose sensor would lie inside something solid */
+    bool shell_outward;         /* nearly all would: what encloses them shows them its back */
     double *illuminance, *direct, *indirect, *half_width; /* lx, a sensor */
+    int layer_count;
+    grid_layer *layers; /* of the scene's groups, if it is layered */
 
     double average, minimum, maximum, uniformity; /* lx, lx, lx; minimum / average, 0 if dark */
     double average_half_width;                    /* lx: mean of half_width */

@@ -3,36 +3,50 @@
 
 #include "core/color.h"
 #include "core/sampler.h"
-#include "core/warp.h"
 #include "sim/direct.h"
+#include "sim/sensor.h"
 
 #include <string.h>
 
 enum { PACKETS = PATHS / LANES };
 
+enum { FEW_LAMPS = 16 }; /* that are all asked where a path begins, if one would not do */
+
 /* Survival is never certain, so that a path ends even in a room that absorbs nothing. */
 static const float surest_survival = 0.995f;
 
+/* What a living path carries; vectors are three fields. */
+enum {
+    PLACE  = 0,          /* m: where it stands; on its way, where the ray begins */
+    NORMAL = PLACE + 3,  /* on the side that it came from; on its way, the ray's direction */
+    CAME   = NORMAL + 3, /* unit: toward where it came from */
+    WORTH  = CAME + 3,   /* by channel, 1 at the beginning */
+    ERROR  = WORTH + 3,  /* m, of PLACE */
+    PLAIN_FIELDS,        /* the rest is carried where surfaces glow */
+    LEFT = PLAIN_FIELDS, /* m: where it was before */
+    SIDE = LEFT + 3,     /* the normal there */
+    PDF  = SIDE + 3,     /* 1/sr: with which it left in its direction */
+    FIELDS
+};
+
 typedef struct path_tracer {
     const scene *s;
+    const path_options *o;
     direct_scratch *direct;
     int64_t ray_count;
     path_bundle *b;
-    int alive;
+    int alive, fields;  /* of those below that are carried */
+    float first[PATHS]; /* sr: response / pdf of each path's first direction */
 
-    /* Of each living path: whose it is, where it stands, how it came, what it is worth */
-    int32_t id[PATHS], material[PATHS];
-    float x[PATHS], y[PATHS], z[PATHS], error[PATHS];
-    float nx[PATHS], ny[PATHS], nz[PATHS]; /* on the side that it came from */
-    float ox[PATHS], oy[PATHS], oz[PATHS]; /* toward where it came from */
-    float worth[3][PATHS];
+    /* Of each living path: whose it is, what it stands on, what it carries */
+    int32_t id[PATHS], material[PATHS], emitter[PATHS];
+    float carried[FIELDS][PATHS];
 
     /* Of one step, by packet */
     vsurface at[PACKETS];
     vmask active[PACKETS];
-    vfloat pick[PACKETS];
-    vsample4 sample[PACKETS];
-    direct_pick lamps[PACKETS];
+    vsample4 sample[PACKETS], light_sample[PACKETS];
+    direct_pick lights[PACKETS];
     vray rays[PACKETS];
     vhit hits[PACKETS];
 } path_tracer;
@@ -43,204 +57,199 @@ path_tracer *path_tracer_new(arena *a, const scene *s, lux_error *err)
     if (!t)
         return NULL;
     t->s      = s;
-    t->direct = direct_scratch_new(a, s, err);
+    t->fields = s->glows ? FIELDS : PLAIN_FIELDS;
+    t->direct = direct_scratch_new(a, err);
     return t->direct ? t : NULL;
 }
 
 int64_t path_rays(const path_tracer *t) { return t->ray_count + direct_rays(t->direct); }
 
-static vvec3 load3(const float *x, const float *y, const float *z, int i)
-{
-    return (vvec3){ vload(x + i), vload(y + i), vload(z + i) };
-}
-
-static void store3(float *x, float *y, float *z, int i, vvec3 v)
-{
-    vstore(x + i, v.x);
-    vstore(y + i, v.y);
-    vstore(z + i, v.z);
-}
-
 static int packets_of(const path_tracer *t) { return (t->alive + LANES - 1) / LANES; }
 
-static void load_packets(path_tracer *t, uint32_t depth)
+static vvec3 load3(const path_tracer *t, int field, int k)
 {
-    for (int k = 0; k < packets_of(t); k++) {
-        int i             = k * LANES;
-        t->active[k]      = (vlane_index() + i) < t->alive;
-        vint id           = vload_int(t->id + i);
-        vuint index       = vunsigned(vgather_int((const int32_t *)t->b->index, id));
-        vuint seed        = vunsigned(vgather_int((const int32_t *)t->b->seed, id));
-        t->sample[k]      = vsobol4(index, vhash_combine(seed, vunsigned(vsplat_int((int)depth))));
-        t->pick[k]        = t->sample[k].z;
-        t->at[k].position = load3(t->x, t->y, t->z, i);
-        t->at[k].normal   = load3(t->nx, t->ny, t->nz, i);
-        t->at[k].error    = vload(t->error + i);
-        t->at[k].material = vload_int(t->material + i);
-    }
+    int i = k * LANES;
+    return (vvec3){ vload(t->carried[field] + i), vload(t->carried[field + 1] + i),
+                    vload(t->carried[field + 2] + i) };
 }
 
-/* Adds what lane i of each packet found to the sums of the path that it is. */
-static void add_to(path_tracer *t, float sums[3][PATHS], int k, vrgb e)
+static void store3(path_tracer *t, int field, int k, vvec3 v)
 {
-    float r[LANES], g[LANES], b[LANES];
-    vstore(r, e.x);
-    vstore(g, e.y);
-    vstore(b, e.z);
-    for (int i = 0; i < LANES && k * LANES + i < t->alive; i++) {
-        int id = t->id[k * LANES + i];
-        sums[0][id] += r[i];
-        sums[1][id] += g[i];
-        sums[2][id] += b[i];
-    }
+    int i = k * LANES;
+    vstore(t->carried[field] + i, v.x);
+    vstore(t->carried[field + 1] + i, v.y);
+    vstore(t->carried[field + 2] + i, v.z);
 }
 
-static vrgb load_worth(const path_tracer *t, int k)
+/* Keeps the paths of `goes` of packet k, behind those kept before; they move down in place. */
+static int keep(path_tracer *t, int k, vmask goes, int kept)
 {
-    return load3(t->worth[0], t->worth[1], t->worth[2], k * LANES);
-}
-
-/* ---- a step of all living paths -------------------------------------------------------------- */
-
-/* All lamps where the paths begin. One that is drawn by its luminance would do, but for colour: a
- * mixture's luminance can be sure while its colour is not. */
-static void ask_all_lamps(path_tracer *t)
-{
-    for (int first = 0; first < packets_of(t); first += DIRECT_PACKETS) {
-        int n = packets_of(t) - first;
-        n     = n < DIRECT_PACKETS ? n : DIRECT_PACKETS;
-        vrgb e[DIRECT_PACKETS];
-        direct_all(t->s, t->direct, t->at + first, t->active + first, n, e);
-        for (int k = 0; k < n; k++)
-            add_to(t, t->b->lamp, first + k, e[k]);
-    }
-}
-
-/* Next-event estimation where the paths stand: one lamp, by its luminance. */
-static void ask_a_lamp(path_tracer *t, bool beginning)
-{
-    const scene *s = t->s;
-    for (int first = 0; first < packets_of(t); first += DIRECT_PACKETS) {
-        int n = packets_of(t) - first;
-        n     = n < DIRECT_PACKETS ? n : DIRECT_PACKETS;
-        direct_one(s, t->direct, t->at + first, t->active + first, t->pick + first, n,
-                   t->lamps + first);
-    }
-    for (int k = 0; k < packets_of(t); k++) {
-        const direct_pick *l = &t->lamps[k];
-        vvec3 wo             = load3(t->ox, t->oy, t->oz, k * LANES);
-        if (beginning) {
-            vfloat cosine = vkeep(t->active[k], vdot(l->wi, t->at[k].normal));
-            add_to(t, t->b->lamp, k, vscale(l->e, cosine));
-        } else {
-            vrgb f = materials_reflect(s->materials, t->at[k].material, &wo, &l->wi,
-                                       &t->at[k].normal, t->active[k]);
-            add_to(t, t->b->indirect, k, vmul(load_worth(t, k), vmul(f, l->e)));
-        }
-    }
-}
-
-static void ask_lamps(path_tracer *t, bool beginning)
-{
-    if (t->s->light_count == 0)
-        return;
-    if (beginning && t->s->lights_differ)
-        ask_all_lamps(t);
-    else
-        ask_a_lamp(t, beginning);
-}
-
-/* Keeps the paths of `goes`, worth what `worth` says, heading along the rays of packet k. */
-static int keep(path_tracer *t, int k, vmask goes, vrgb worth, const vray *ray, int kept)
-{
-    float w[3][LANES], o[3][LANES], d[3][LANES];
-    store3(w[0], w[1], w[2], 0, worth);
-    store3(o[0], o[1], o[2], 0, ray->origin);
-    store3(d[0], d[1], d[2], 0, ray->direction);
-    for (int bits = vbits(goes); bits; bits &= bits - 1) {
-        int i       = __builtin_ctz((unsigned)bits);
-        t->id[kept] = t->id[k * LANES + i];
-        t->x[kept] = o[0][i], t->y[kept] = o[1][i], t->z[kept] = o[2][i];
-        t->nx[kept] = d[0][i], t->ny[kept] = d[1][i], t->nz[kept] = d[2][i];
-        t->worth[0][kept] = w[0][i], t->worth[1][kept] = w[1][i], t->worth[2][kept] = w[2][i];
-        kept++;
+    for (int bits = vbits(goes); bits; bits &= bits - 1, kept++) {
+        int from          = k * LANES + __builtin_ctz((unsigned)bits);
+        t->id[kept]       = t->id[from];
+        t->material[kept] = t->material[from];
+        t->emitter[kept]  = t->emitter[from];
+        for (int f = 0; f < t->fields; f++)
+            t->carried[f][kept] = t->carried[f][from];
     }
     return kept;
 }
 
-/* Draws where each path goes on, or that it ends. Behind this, x y z and nx ny nz hold the rays'
- * origins and directions. */
-static void draw_directions(path_tracer *t, bool beginning)
+/* Random numbers of a vertex. Lights have numbers of their own only where they need them. */
+static void load_packets(path_tracer *t, uint32_t depth)
 {
-    const scene *s = t->s;
-    int n = packets_of(t), kept = 0;
-    for (int k = 0; k < n; k++) {
-        const vsample4 *u  = &t->sample[k];
-        const vsurface *at = &t->at[k];
-        vvec3 wo           = load3(t->ox, t->oy, t->oz, k * LANES);
-        vrgb worth         = load_worth(t, k);
-        vmask goes         = t->active[k];
-        vscatter next;
-        if (beginning) {
-            next.wi = vwarp_cosine_about(at->normal, u->x, u->y);
-        } else {
-            goes = materials_scatter(s->materials, at->material, &wo, &at->normal, u->x, u->y, goes,
-                                     &next);
-            worth = vmul(worth, next.weight);
-
-            /* Roulette: a path goes on as often as it is worth going */
-            vfloat most     = vmax(worth.x, vmax(worth.y, worth.z));
-            vfloat survival = vmin(most, vsplat(surest_survival));
-            goes            = goes & (u->w < survival);
-            worth           = vscale(worth, 1.0f / survival);
-        }
-        vray ray = { .origin = vray_start(at, &next.wi), .direction = next.wi };
-        kept     = keep(t, k, goes, worth, &ray, kept);
+    bool places = t->s->extended || t->s->emitter_count > 0;
+    for (int k = 0; k < packets_of(t); k++) {
+        int i              = k * LANES;
+        t->active[k]       = (vlane_index() + i) < t->alive;
+        vint id            = vload_int(t->id + i);
+        vuint index        = vunsigned(vgather_int((const int32_t *)t->b->index, id));
+        vuint seed         = vunsigned(vgather_int((const int32_t *)t->b->seed, id));
+        vuint of_bounce    = vhash_combine(seed, vunsigned(vsplat_int((int)depth)));
+        vuint of_light     = vhash_combine(seed, vunsigned(vsplat_int(~(int)depth)));
+        t->sample[k]       = vsobol4(index, of_bounce);
+        t->light_sample[k] = places ? vsobol4(index, of_light) : t->sample[k];
+        t->at[k]           = (vsurface){ .position = load3(t, PLACE, k),
+                                         .normal   = load3(t, NORMAL, k),
+                                         .error    = vload(t->carried[ERROR] + i),
+                                         .material = vload_int(t->material + i) };
     }
-    t->alive = kept;
 }
 
-/* Traces the rays, and moves the paths to what they meet. */
-static void go_on(path_tracer *t)
+/* ---- what is found --------------------------------------------------------------------------- */
+
+/* Adds what each path of packet k found, e, of light number `light` (-1: of none). */
+static void add(path_tracer *t, bool straight, int k, vrgb e, vint light)
 {
-    int n = packets_of(t), kept = 0;
-    for (int k = 0; k < n; k++) {
-        int i        = k * LANES;
-        t->active[k] = (vlane_index() + i) < t->alive;
-        t->rays[k] =
-            (vray){ load3(t->x, t->y, t->z, i), load3(t->nx, t->ny, t->nz, i), vsplat(INFINITY) };
-    }
-    t->ray_count += t->alive;
-    world_first_hit(t->s->world, t->rays, t->active, n, RAYS_INCOHERENT, t->hits);
-
-    for (int k = 0; k < n; k++) {
-        vsurface at;
-        vmask met = t->active[k] & (t->hits[k].instance >= 0);
-        world_surface(t->s->world, &t->hits[k], met, &at);
-        vvec3 wo   = vneg(t->rays[k].direction);
-        vmask back = vdot(wo, at.normal) < 0.0f;
-        at.normal  = vselect3(back, vneg(at.normal), at.normal);
-
-        float n3[3][LANES], o3[3][LANES], p3[3][LANES], error[LANES];
-        int32_t made_of[LANES];
-        store3(n3[0], n3[1], n3[2], 0, at.normal);
-        store3(o3[0], o3[1], o3[2], 0, wo);
-        store3(p3[0], p3[1], p3[2], 0, at.position);
-        vstore(error, at.error);
-        vstore_int(made_of, at.material);
-        for (int bits = vbits(met); bits; bits &= bits - 1, kept++) {
-            int i = __builtin_ctz((unsigned)bits), from = k * LANES + i;
-            t->id[kept] = t->id[from];
-            for (int c = 0; c < 3; c++)
-                t->worth[c][kept] = t->worth[c][from];
-            t->x[kept] = p3[0][i], t->y[kept] = p3[1][i], t->z[kept] = p3[2][i];
-            t->nx[kept] = n3[0][i], t->ny[kept] = n3[1][i], t->nz[kept] = n3[2][i];
-            t->ox[kept] = o3[0][i], t->oy[kept] = o3[1][i], t->oz[kept] = o3[2][i];
-            t->error[kept]    = error[i];
-            t->material[kept] = made_of[i];
+    const scene *s  = t->s;
+    path_sums *sums = straight ? &t->b->direct : &t->b->indirect;
+    float of[3][LANES];
+    vstore(of[0], e.x);
+    vstore(of[1], e.y);
+    vstore(of[2], e.z);
+    for (int i = 0; i < LANES && k * LANES + i < t->alive; i++) {
+        int id = t->id[k * LANES + i], l = lane(light, i);
+        if (l < 0)
+            continue;
+        bool lamp     = l < s->light_count;
+        float dimming = lamp ? s->light_info[l].dimming : s->glow_dimming;
+        int group     = lamp ? s->light_info[l].group : s->glow_group;
+        for (int c = 0; c < 3; c++) {
+            (*sums)[c][id] += dimming * of[c][i];
+            if (!t->b->layers)
+                continue;
+            t->b->layers[group][c][id] += of[c][i];
+            if (straight)
+                t->b->layers[s->group_count + group][c][id] += of[c][i];
         }
     }
-    t->alive = kept;
+}
+
+static vfloat first_of(const path_tracer *t, int k)
+{
+    return vgather(t->first, vload_int(t->id + k * LANES));
+}
+
+/* p_a^2 / (p_a^2 + p_b^2) */
+static vfloat power_heuristic(vfloat a, vfloat b)
+{
+    vfloat ratio = b / a;
+    return 1.0f / (1.0f + ratio * ratio);
+}
+
+/* Of the lights that were drawn: how much each counts, where the path might find it too. */
+static vfloat light_share(const path_tracer *t, int k, bool beginning)
+{
+    const direct_pick *l = &t->lights[k];
+    const vsurface *at   = &t->at[k];
+    vmask glows          = t->active[k] & (l->light >= t->s->light_count);
+    if (!vany(glows))
+        return vsplat(1.0f);
+    vvec3 wo = load3(t, CAME, k);
+    vfloat pdf =
+        beginning ? vsensor_pdf(t->o->quantity, &at->normal, &l->wi)
+                  : materials_pdf(t->s->materials, at->material, &wo, &l->wi, &at->normal, glows);
+    return vselect(glows, power_heuristic(l->pdf, pdf), vsplat(1.0f));
+}
+
+static void add_lights(path_tracer *t, int k, bool beginning)
+{
+    const direct_pick *l = &t->lights[k];
+    const vsurface *at   = &t->at[k];
+    vrgb e               = vscale(l->e, light_share(t, k, beginning));
+    if (beginning) {
+        vfloat response = vsensor_response(t->o->quantity, &at->normal, &l->wi);
+        add(t, true, k, vkeep3(t->active[k], vscale(e, response)), l->light);
+    } else {
+        vvec3 wo = load3(t, CAME, k);
+        vrgb f   = materials_reflect(t->s->materials, at->material, &wo, &l->wi, &at->normal,
+                                     t->active[k]);
+        vrgb all = vscale(vmul(load3(t, WORTH, k), vmul(f, e)), first_of(t, k));
+        add(t, false, k, vkeep3(t->active[k], all), l->light);
+    }
+}
+
+/* One that is drawn by its luminance would do, but for colour and for groups: a mixture's luminance
+ * can be sure while its colour, or a group's share, is not. */
+static bool asks_all_lamps(const path_tracer *t)
+{
+    const scene *s = t->s;
+    return s->emitter_count == 0 && s->light_count <= FEW_LAMPS &&
+           (s->lights_differ || t->b->layers);
+}
+
+/* Next-event estimation where the paths stand. */
+static void ask_lights(path_tracer *t, bool beginning)
+{
+    const scene *s = t->s;
+    bool lamps     = (!beginning || t->o->lamps) && s->light_count > 0;
+    bool all       = beginning && lamps && asks_all_lamps(t);
+    if (!lamps && s->emitter_count == 0)
+        return;
+    for (int first = 0; first < packets_of(t); first += DIRECT_PACKETS) {
+        int n          = packets_of(t) - first;
+        direct_batch b = { .at         = t->at + first,
+                           .active     = t->active + first,
+                           .u          = t->light_sample + first,
+                           .packets    = n < DIRECT_PACKETS ? n : DIRECT_PACKETS,
+                           .glow_alone = !lamps,
+                           .all_around = beginning && quantity_is_round(t->o->quantity) };
+        for (int l = 0; l < (all ? s->light_count : 1); l++) {
+            if (all)
+                direct_lamp(s, t->direct, l, &b, t->lights + first);
+            else
+                direct_one(s, t->direct, &b, t->lights + first);
+            for (int k = first; k < first + b.packets; k++)
+                add_lights(t, k, beginning);
+        }
+    }
+}
+
+/* What shines by itself where the paths have come to. */
+static void add_glow(path_tracer *t, bool straight)
+{
+    const scene *s = t->s;
+    if (!s->glows)
+        return;
+    for (int k = 0; k < packets_of(t); k++) {
+        vmask active = (vlane_index() + k * LANES) < t->alive;
+        vint which   = vload_int(t->material + k * LANES);
+        vrgb glow    = materials_emission(s->materials, which, active);
+        vmask bright = active & ((glow.x > 0.0f) | (glow.y > 0.0f) | (glow.z > 0.0f));
+        if (!vany(bright))
+            continue;
+
+        /* Lights that are asked where the path was find it as well */
+        vsurface before = { .position = load3(t, LEFT, k), .normal = load3(t, SIDE, k) };
+        vvec3 wi        = vneg(load3(t, CAME, k));
+        vfloat pdf      = vload(t->carried[PDF] + k * LANES);
+        bool no_lamps   = s->light_count == 0 || (straight && !t->o->lamps);
+        vfloat other = direct_glow_pdf(s, &before, &wi, vload_int(t->emitter + k * LANES), no_lamps,
+                                       straight && quantity_is_round(t->o->quantity), bright);
+        vfloat share = power_heuristic(pdf, other) * first_of(t, k);
+        vrgb all     = vscale(vmul(load3(t, WORTH, k), glow), share);
+        add(t, straight, k, vkeep3(bright, all), vsplat_int(s->light_count));
+    }
 }
 
 /* Which paths see something that could give light back. */
@@ -255,62 +264,145 @@ static void note_what_is_met(path_tracer *t)
     }
 }
 
-/* What shines by itself where the paths have come to. */
-static void add_glow(path_tracer *t, bool straight)
+/* ---- a step of all living paths -------------------------------------------------------------- */
+
+/* Draws where a path begins to go; what its direction is worth is kept by its number. */
+static vmask begin_direction(path_tracer *t, int k, vvec3 *wi, vfloat *pdf)
 {
-    if (!t->s->glows)
-        return;
-    for (int k = 0; k < packets_of(t); k++) {
-        vmask active = (vlane_index() + k * LANES) < t->alive;
-        vint which   = vload_int(t->material + k * LANES);
-        vrgb glow    = materials_emission(t->s->materials, which, active);
-        add_to(t, straight ? t->b->glow : t->b->indirect, k, vmul(load_worth(t, k), glow));
+    const vsample4 *u = &t->sample[k];
+    float worth[LANES];
+    vfloat first;
+    *wi = vsensor_direction(t->o->quantity, &t->at[k].normal, u->x, u->y, pdf, &first);
+    vstore(worth, first);
+    for (int i = 0; i < LANES && k * LANES + i < t->alive; i++)
+        t->first[t->id[k * LANES + i]] = worth[i];
+    return t->active[k];
+}
+
+/* Draws where a path goes on, or that it ends. */
+static vmask next_direction(path_tracer *t, int k, vvec3 *wi, vfloat *pdf)
+{
+    const scene *s     = t->s;
+    const vsample4 *u  = &t->sample[k];
+    const vsurface *at = &t->at[k];
+    vvec3 wo           = load3(t, CAME, k);
+    vscatter next;
+    vmask goes = materials_scatter(s->materials, at->material, &wo, &at->normal, u->x, u->y,
+                                   t->active[k], &next);
+    vrgb worth = vmul(load3(t, WORTH, k), next.weight);
+
+    /* Roulette: a path goes on as often as it is worth going */
+    vfloat most     = vmax(worth.x, vmax(worth.y, worth.z));
+    vfloat survival = vmin(most, vsplat(surest_survival));
+    goes            = goes & (u->w < survival);
+    store3(t, WORTH, k, vscale(worth, 1.0f / survival));
+    *wi = next.wi;
+    if (s->emitter_count > 0)
+        *pdf = materials_pdf(s->materials, at->material, &wo, wi, &at->normal, goes);
+    return goes;
+}
+
+static void draw_directions(path_tracer *t, bool beginning)
+{
+    int n = packets_of(t), kept = 0;
+    for (int k = 0; k < n; k++) {
+        vvec3 wi;
+        vfloat pdf = vsplat(1.0f);
+        vmask goes = beginning ? begin_direction(t, k, &wi, &pdf) : next_direction(t, k, &wi, &pdf);
+        if (t->fields == FIELDS) {
+            store3(t, LEFT, k, t->at[k].position);
+            store3(t, SIDE, k, t->at[k].normal);
+            vstore(t->carried[PDF] + k * LANES, pdf);
+        }
+        store3(t, PLACE, k, vray_start(&t->at[k], &wi));
+        store3(t, NORMAL, k, wi);
+        kept = keep(t, k, goes, kept);
+    }
+    t->alive = kept;
+}
+
+/* The emitters that a packet's hits are, -1 for none. */
+static void find_emitters(path_tracer *t, int k, vmask met)
+{
+    const scene *s = t->s;
+    for (int bits = vbits(met); bits; bits &= bits - 1) {
+        int i         = __builtin_ctz((unsigned)bits);
+        int64_t first = s->first_emitter ? s->first_emitter[lane(t->hits[k].instance, i)] : -1;
+        t->emitter[k * LANES + i] =
+            first < 0 ? -1 : s->emitter_of[first + lane(t->hits[k].triangle, i)];
     }
 }
 
-static void begin(path_tracer *t, path_bundle *b)
+/* Traces the rays, and moves the paths to what they meet. */
+static void go_on(path_tracer *t)
+{
+    int n = packets_of(t), kept = 0;
+    for (int k = 0; k < n; k++) {
+        t->active[k] = (vlane_index() + k * LANES) < t->alive;
+        t->rays[k]   = (vray){ load3(t, PLACE, k), load3(t, NORMAL, k), vsplat(INFINITY) };
+    }
+    t->ray_count += t->alive;
+    world_first_hit(t->s->world, t->rays, t->active, n, RAYS_INCOHERENT, t->hits);
+
+    for (int k = 0; k < n; k++) {
+        vsurface at;
+        vmask met = t->active[k] & (t->hits[k].instance >= 0);
+        world_surface(t->s->world, &t->hits[k], met, &at);
+        vvec3 wo   = vneg(t->rays[k].direction);
+        vmask back = vdot(wo, at.normal) < 0.0f;
+        store3(t, PLACE, k, at.position);
+        store3(t, NORMAL, k, vselect3(back, vneg(at.normal), at.normal));
+        store3(t, CAME, k, wo);
+        vstore(t->carried[ERROR] + k * LANES, at.error);
+        vstore_int(t->material + k * LANES, at.material);
+        find_emitters(t, k, met);
+        kept = keep(t, k, met, kept);
+    }
+    t->alive = kept;
+}
+
+static void begin(path_tracer *t, path_bundle *b, const path_options *o)
 {
     t->b     = b;
+    t->o     = o;
     t->alive = b->count;
-    memset(b->lamp, 0, sizeof b->lamp);
-    memset(b->glow, 0, sizeof b->glow);
+    memset(b->direct, 0, sizeof b->direct);
     memset(b->indirect, 0, sizeof b->indirect);
     memset(b->met, 0, sizeof b->met);
-    size_t bytes = (size_t)b->count * sizeof(float);
-    memcpy(t->x, b->x, bytes), memcpy(t->y, b->y, bytes), memcpy(t->z, b->z, bytes);
-    memcpy(t->nx, b->nx, bytes), memcpy(t->ny, b->ny, bytes), memcpy(t->nz, b->nz, bytes);
-    memcpy(t->ox, b->nx, bytes), memcpy(t->oy, b->ny, bytes), memcpy(t->oz, b->nz, bytes);
-    memcpy(t->error, b->error, bytes);
+    if (b->layers)
+        memset(b->layers, 0, 2 * (size_t)t->s->group_count * sizeof *b->layers);
+    const struct {
+        int field;
+        const float *from;
+    } given[] = { { PLACE, b->x },    { PLACE + 1, b->y },   { PLACE + 2, b->z },
+                  { NORMAL, b->nx },  { NORMAL + 1, b->ny }, { NORMAL + 2, b->nz },
+                  { CAME, b->nx },    { CAME + 1, b->ny },   { CAME + 2, b->nz },
+                  { ERROR, b->error } };
+    for (size_t g = 0; g < sizeof given / sizeof *given; g++)
+        memcpy(t->carried[given[g].field], given[g].from, (size_t)b->count * sizeof(float));
     for (int i = 0; i < PATHS; i++) {
         t->id[i]       = i < b->count ? i : 0; /* those behind the last are read, and dropped */
         t->material[i] = 0;
+        t->emitter[i]  = -1;
         for (int c = 0; c < 3; c++)
-            t->worth[c][i] = 1.0f;
+            t->carried[WORTH + c][i] = 1.0f;
     }
 }
 
-void path_trace(path_tracer *t, path_bundle *b, bool lamps, bool bounce)
+void path_trace(path_tracer *t, path_bundle *b, const path_options *o)
 {
-    begin(t, b);
+    begin(t, b, o);
     for (uint32_t depth = 0; t->alive > 0; depth++) {
         load_packets(t, depth);
-        if (depth > 0 || lamps)
-            ask_lamps(t, depth == 0);
-        if (!bounce && (depth > 0 || !t->s->glows))
+        ask_lights(t, depth == 0);
+        if (!o->bounce && (depth > 0 || !t->s->glows))
             break;
         draw_directions(t, depth == 0);
         go_on(t);
         add_glow(t, depth == 0);
         if (depth == 0)
             note_what_is_met(t);
-        if (!bounce)
+        if (!o->bounce)
             break;
     }
-
-    /* The pdf of the first direction, cos / pi, turns radiance into irradiance by pi */
-    for (int c = 0; c < 3; c++)
-        for (int i = 0; i < b->count; i++) {
-            b->glow[c][i] *= WARP_PI;
-            b->indirect[c][i] *= WARP_PI;
-        }
 }

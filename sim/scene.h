@@ -8,6 +8,7 @@
 
 #include "core/world.h"
 #include "lights/light.h"
+#include "lights/light_tree.h"
 #include "lights/photometry.h"
 #include "materials/material.h"
 #include "sim/gltf.h"
@@ -26,6 +27,10 @@ typedef struct scene_light {
     dvec3 at;         /* m, in the user's frame; of a far one: where it shines to */
     double lumens;    /* initial, dimming included; INFINITY: far away */
     vec3 color;       /* luminance 1 */
+    int group;        /* in scene.groups */
+    float dimming; /* by which its light is still to be multiplied: 1 unless the scene is layered */
+    int owner;     /* of the instances that do not shade it (world_instance.owner); 0: all do */
+    bool clear;    /* nothing stands between it and any place in the room */
 } scene_light;
 
 typedef struct scene_camera {
@@ -45,26 +50,47 @@ typedef struct scene {
     const material *const *materials;
     const scene_material *material_info;
 
-    int light_count;
-    const light *const *lights;
+    int light_count;            /* lamps */
+    int emitter_count;          /* triangles of glowing surfaces */
+    const light *const *lights; /* lamps, then emitters */
     const scene_light *light_info;
-    bool lights_differ; /* in colour: then luminance does not tell all of a mixture */
+    const light_tree *tree;         /* over all of lights; NULL: there are none */
+    const light_tree *emitter_tree; /* over emitters, numbered from 0; NULL: there are none */
+    const int64_t *first_emitter; /* of an instance: where its triangles begin in emitter_of; -1 */
+    const int32_t *emitter_of;    /* the emitter that a triangle is, or -1 */
+    bool lights_differ;           /* in colour: then luminance does not tell all of a mixture */
+    bool extended;                /* some lamp is more than a point */
+
+    int group_count; /* of lamps; "other" holds those that are in none */
+    const char *const *groups;
+    int glow_group;     /* of glowing surfaces */
+    float glow_dimming; /* what they are to be multiplied by */
+    bool owners;        /* some lamp has a body that does not shade it */
+    bool layered;       /* lights hold their full light, and light_info what it is dimmed to */
 
     int camera_count;
     const scene_camera *cameras;
 
     bool reflects;     /* some surface does */
     bool glows;        /* some surface emits light */
-    double glow_share; /* those that do, of the area of all */
     int small_patches; /* lamps that light a patch too small for samples to find reliably */
 } scene;
 
 /* The light that samples may miss without an interval telling, in words; NULL if there is none. */
 const char *scene_left_to_chance(const scene *s, bool direct_only);
 
-/* Builds the scene of a study into a, on that many threads. NULL, with *err naming file and
- * place. What is left out or looks like a mistake (a luminaire outside the room) is noticed. */
-const scene *scene_new(arena *a, const study *s, int threads, notices *n, lux_error *err);
+typedef struct scene_options {
+    int threads;  /* to build on, >= 1 */
+    bool layered; /* lights as if not dimmed: for a layer of each group */
+} scene_options;
+
+/* Builds the scene of a study into a. NULL, with *err naming file and place. What is left out or
+ * looks like a mistake (a luminaire outside the room) is noticed. */
+const scene *scene_new(arena *a, const study *s, const scene_options *o, notices *n,
+                       lux_error *err);
+
+/* Whether lamps that are `clear` are seen from a place of the user's frame, whatever they are. */
+bool scene_is_in_room(const scene *s, dvec3 p);
 
 /* A place of the user's frame in the scene's. */
 static inline vec3 scene_place(const scene *s, dvec3 p)

@@ -172,6 +172,6 @@ const command command_check = {
     .files   = "STUDY.yaml",
     .summary = "validates a study and all it names, predicts memory; simulates nothing",
     .help    = "",
-    .options = " --threads --json --quiet ",
+    .options = " --variant --threads --json --quiet ",
     .run     = check_command,
 };

@@ -192,6 +192,7 @@ const command command_grid = {
     .help = "Illuminance is maintained illuminance where the study has `maintenance`. A sensor is\n"
             "done when half of its 95 % confidence interval is at most the accuracy asked for,\n"
             "of its value or of a tenth of the grid's average, whichever is more.\n",
-    .options = " -o --overwrite --accuracy --time --threads --seed --direct-only --json --quiet ",
+    .options = " -o --overwrite --accuracy --time --variant --threads --seed --direct-only --json "
+               "--quiet ",
     .run     = grid_command,
 };

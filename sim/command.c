@@ -10,7 +10,7 @@ const scene *command_scene(const command_context *c, lux_error *err)
         return failed(err, ERR_ARGUMENT,
                       c->line->file_count ? "one study at a time, please"
                                           : "which study? (a .yaml file)");
-    const study *s = study_read(c->a, c->line->files[0], c->notices, err);
+    const study *s = study_read(c->a, c->line->files[0], c->line->variant, c->notices, err);
     return s ? scene_new(c->a, s, command_threads(c), c->notices, err) : NULL;
 }
 

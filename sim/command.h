@@ -29,6 +29,7 @@ typedef struct command_line {
     double seconds;           /* NAN */
     double exposure_ev;       /* 0: as the picture's average asks */
     const char *plot, *write; /* NULL */
+    const char *variant;      /* of the study; NULL */
 } command_line;
 
 /* What a command runs with. */

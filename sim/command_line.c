@@ -18,6 +18,7 @@ static const option options[] = {
     { "--overwrite", NULL, "replace results that are there already" },
     { "--accuracy", "P%", "how near to the truth (grids: the study's, or else 2%; views: 10%)" },
     { "--time", "SECONDS", "stop after that time with what there is (exit code 3 if too early)" },
+    { "--variant", "NAME", "the study with this one of its `variants` merged over it" },
     { "--threads", "N", "run on N threads (default: all processors)" },
     { "--seed", "N", "another number, another set of random samples (default 1)" },
     { "--direct-only", NULL, "leave interreflection out" },
@@ -35,7 +36,6 @@ static const option options[] = {
     { "--tone", "", NULL },
     { "--no", "", NULL },
     { "--only", "", NULL },
-    { "--variant", "", NULL },
     { "--false-color", "", NULL },
 };
 enum { OPTIONS = sizeof options / sizeof *options };
@@ -121,6 +121,8 @@ static bool take(command_line *l, const char *name, const char *value, lux_error
         l->plot = value;
     } else if (!strcmp(name, "--write")) {
         l->write = value;
+    } else if (!strcmp(name, "--variant")) {
+        l->variant = value;
     } else if (!strcmp(name, "--overwrite")) {
         l->place.overwrite = true;
     } else if (!strcmp(name, "--direct-only")) {

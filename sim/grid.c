@@ -89,6 +89,9 @@ static bool point_sensors(arena *a, const study_grid *g, grid_result *out, lux_e
 bool grid_sensors(arena *a, const study_grid *g, grid_result *out, lux_error *err)
 {
     *out = (grid_result){ .grid = g };
+    if (g->quantity != QUANTITY_PLANAR || !isnan(g->require_maximum))
+        return failed(err, ERR_UNSUPPORTED,
+                      "grid %s: `quantity` and `maximum` are not simulated yet", g->name);
     return g->points ? point_sensors(a, g, out, err) : plane_sensors(a, g, out, err);
 }
 

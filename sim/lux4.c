@@ -49,7 +49,7 @@ lux4 *lux4_open(const char *path, lux4_error *err)
     if (l) {
         l->notices.a = &l->a;
         l->a         = a; /* from here on, the arena is the one inside */
-        l->study     = study_read(&l->a, path, &l->notices, &why);
+        l->study     = study_read(&l->a, path, NULL, &l->notices, &why);
         l->scene =
             l->study ? scene_new(&l->a, l->study, parallel_processors(), &l->notices, &why) : NULL;
         if (l->scene)

@@ -67,7 +67,7 @@ static void warn_if_brightened(const scene_build *b, study_where where, double d
 static bool luminaire_factor(scene_build *b, const study_luminaire *l, const photometry *web,
                              double *factor)
 {
-    *factor = l->emission.dimming;
+    *factor = l->emission.dimming * study_group_factor(b->study, l->emission.group);
     if (!isnan(l->lumens)) {
         if (!(web->luminaire_lumens > 0.0))
             return study_failed(b->study, l->where, b->err, ERR_ARGUMENT,
@@ -107,6 +107,9 @@ static bool add_luminaires(scene_build *b)
     for (int i = 0; i < s->luminaire_count; i++) {
         const study_luminaire *l = &s->luminaires[i];
         double factor;
+        if (l->nodes || l->aim_at_given)
+            return study_failed(s, l->where, b->err, ERR_UNSUPPORTED,
+                                "luminaires with `nodes` or `aim_at` are not simulated yet");
         webs[i] = web_of(b, i, webs);
         if (!webs[i] || !luminaire_factor(b, l, webs[i], &factor))
             return false;
@@ -133,7 +136,12 @@ static bool add_points(scene_build *b)
 {
     for (int i = 0; i < b->study->light_count; i++) {
         const study_light *l = &b->study->lights[i];
-        double intensity     = l->intensity * l->emission.dimming;
+        if (l->kind != STUDY_POINT)
+            return study_failed(b->study, l->where, b->err, ERR_UNSUPPORTED,
+                                "of `lights`, only points are simulated yet");
+        double candelas = isnan(l->lumens) ? l->intensity : l->lumens / (4.0 * M_PI);
+        double intensity =
+            candelas * l->emission.dimming * study_group_factor(b->study, l->emission.group);
         warn_if_brightened(b, l->where, l->emission.dimming);
         for (int k = 0; k < l->at_count; k++) {
             point_desc d = { .position  = d3_to_float(d3_sub(l->at[k], b->centre)),

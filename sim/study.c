@@ -76,11 +76,12 @@ static const study_key top_table[] = {
     { "maintenance", STUDY_OPTIONAL, read_maintenance, 0 },
     { "luminaires", STUDY_OPTIONAL, study_read_luminaires, 0 },
     { "lights", STUDY_OPTIONAL, study_read_lights, 0 },
+    { "dimming", STUDY_OPTIONAL, study_read_dimmings, 0 },
     { "materials", STUDY_OPTIONAL, study_read_materials, 0 },
     { "grids", STUDY_OPTIONAL, study_read_grids, 0 },
     { "views", STUDY_OPTIONAL, study_read_views, 0 },
     { "accuracy", STUDY_OPTIONAL, study_read_percent, offsetof(study, accuracy) },
-    { "variants", STUDY_NOT_YET },
+    { "variants", STUDY_OPTIONAL, study_read_variants, 0 },
 };
 static const study_keys top_keys = STUDY_KEYS("a study", top_table);
 
@@ -154,9 +155,9 @@ static char *text_kept(arena *a, const char *text, lux_error *err)
     return copy ? memcpy(copy, text, bytes) : NULL;
 }
 
-static bool read_top(const study_reader *r, study *s)
+static bool read_top(const study_reader *r, study *s, int index)
 {
-    const yaml_node_t *top = yaml_document_get_root_node(r->tree);
+    const yaml_node_t *top = yaml_document_get_node(r->tree, index);
     if (top->type != YAML_MAPPING_NODE)
         return study_unexpected(r, top, "a study (lux4: 1 ...)");
 
@@ -164,34 +165,74 @@ static bool read_top(const study_reader *r, study *s)
     const yaml_node_t *version = study_map_value(r, top, "lux4");
     if (version && !read_version(r, version, s))
         return false;
-    return study_read_map(r, top, &top_keys, s) && study_finish_grids(s, r->err) &&
+    return study_read_map(r, top, &top_keys, s) && study_finish_luminaires(s, r->a, r->err) &&
+           study_finish_dimmings(s, r->err) && study_finish_grids(s, r->err) &&
            names_are_unique(s, r->err);
 }
 
-const study *study_parse(arena *a, const char *path, const char *text, size_t size, notices *n,
-                         lux_error *err)
+/* The study whose keys are those of the node, kept in r->a. */
+static study *read_whole(const study_reader *r, int index)
 {
-    study *s = arena_new(a, study, err);
-    if (!s || !(s->path = text_kept(a, path, err)) || !(s->folder = folder_of(a, path, err)))
+    study *s = arena_new(r->a, study, r->err);
+    if (!s)
         return NULL;
-    s->maintenance = 1.0;
-    s->accuracy    = (double)NAN;
-
-    yaml_document_t tree;
-    if (!yaml_guard_load(&tree, path, text, size, err))
-        return NULL;
-    study_reader r = { a, &tree, s->path, s->folder, n, err };
-    bool good      = read_top(&r, s);
-    yaml_document_delete(&tree);
-    return good ? s : NULL;
+    *s = (study){ .path        = r->path,
+                  .folder      = r->folder,
+                  .variant     = r->variant,
+                  .maintenance = 1.0,
+                  .accuracy    = (double)NAN };
+    return read_top(r, s, index) ? s : NULL;
 }
 
-const study *study_read(arena *a, const char *path, notices *n, lux_error *err)
+/* Every variant is read, so that an error in one shows before it is needed; what they come to is
+ * dropped, but for the one that was chosen. NULL, with the error, if one is wrong. */
+static study *read_variants(const study_reader *r, study *plain, int chosen)
+{
+    study *s = plain;
+    for (int i = 0; s && i < study_variant_count(r); i++) {
+        arena scratch    = { 0 };
+        study_reader one = *r;
+        one.a            = i == chosen ? r->a : &scratch;
+        one.notices      = i == chosen ? r->notices : NULL;
+        one.variant      = text_kept(one.a, study_variant_name(r, i), r->err);
+        int merged       = one.variant ? study_variant_merge(&one, i) : -1;
+        study *read      = merged < 0 ? NULL : read_whole(&one, merged);
+        if (!read)
+            s = NULL;
+        else if (i == chosen)
+            s = read;
+        arena_clear(&scratch);
+    }
+    return s;
+}
+
+const study *study_parse(arena *a, const char *path, const char *variant, const char *text,
+                         size_t size, notices *n, lux_error *err)
+{
+    enum { ROOT = 1 }; /* libyaml's first node */
+    yaml_document_t tree;
+    study_reader r = { .a       = a,
+                       .tree    = &tree,
+                       .path    = text_kept(a, path, err),
+                       .folder  = folder_of(a, path, err),
+                       .notices = n,
+                       .err     = err };
+    if (!r.path || !r.folder || !yaml_guard_load(&tree, path, text, size, err))
+        return NULL;
+
+    study *s   = read_whole(&r, ROOT); /* it must be good by itself */
+    int chosen = s && variant ? study_variant_find(&r, variant) : -1;
+    s          = !s || (variant && chosen < 0) ? NULL : read_variants(&r, s, chosen);
+    yaml_document_delete(&tree);
+    return s;
+}
+
+const study *study_read(arena *a, const char *path, const char *variant, notices *n, lux_error *err)
 {
     arena scratch  = { 0 };
     size_t size    = 0;
     char *text     = file_read(&scratch, path, YAML_GUARD_BYTES, &size, err);
-    const study *s = text ? study_parse(a, path, text, size, n, err) : NULL;
+    const study *s = text ? study_parse(a, path, variant, text, size, n, err) : NULL;
     arena_clear(&scratch);
     return s;
 }
@@ -204,6 +245,9 @@ void *study_failed(const study *s, study_where where, lux_error *err, error_code
     va_start(args, format);
     vsnprintf(text.text, sizeof text.text, format, args);
     va_end(args);
+    if (s->variant)
+        return failed(err, code, "%s:%d:%d: with the variant `%s`: %s", s->path, where.line,
+                      where.column, s->variant, text.text);
     return failed(err, code, "%s:%d:%d: %s", s->path, where.line, where.column, text.text);
 }
 

@@ -38,30 +38,67 @@ typedef struct study_scene {
 typedef struct study_emission {
     vec3 color;        /* luminance 1: {1,1,1} if not given; temperatures are converted */
     double dimming;    /* 1; >= 0 */
-    const char *group; /* NULL */
+    const char *group; /* NULL: "other" */
 } study_emission;
+
+/* Places in a row or in a grid, x before y before z: count of them from `from` to `to`; where the
+ * count is 1, the middle. */
+typedef struct study_layout {
+    study_where where;
+    bool given, fill;   /* fill: the room, half the spacing to its walls, at height z */
+    double z;           /* m; NAN */
+    dvec3 from, to;     /* m */
+    int count[3], axes; /* axes: 1: a row along the line, 2: in x and y, 3: in x, y and z */
+} study_layout;
 
 typedef struct study_luminaire {
     study_where where;
     const char *name;       /* NULL */
     const char *photometry; /* ready to open */
-    dvec3 *at;
+    dvec3 *at;              /* m; those of `layout` are worked out; NULL: at `nodes` */
     int at_count;
-    dvec3 aim;                  /* {0,0,-1} */
+    study_layout layout;
+    const char *nodes; /* pattern of glTF nodes; NULL */
+    bool aim_given, aim_at_given;
+    dvec3 aim;                  /* {0,0,-1}; at nodes, if not given: as the node is turned */
+    dvec3 aim_at;               /* m, a place, in place of aim */
     double rotate_deg;          /* 0 */
     double lumens, lamp_lumens; /* NAN: as the file has it; never both */
-    double watts;               /* NAN */
+    double watts;               /* NAN: as the file has it */
     study_emission emission;
 } study_luminaire;
 
+typedef enum study_light_kind {
+    STUDY_POINT,
+    STUDY_CONE,
+    STUDY_COSINE,
+    STUDY_PARALLEL,
+    STUDY_LINEAR,
+    STUDY_DISK,
+    STUDY_RECT,
+} study_light_kind;
+
+/* Exactly one of the strengths that its kind has is given; with photometry only lumens may be, and
+ * need not. What a kind has no key for is as it is initialised. */
 typedef struct study_light {
     study_where where;
     const char *name; /* NULL */
-    dvec3 *at;
+    study_light_kind kind;
+    dvec3 *at; /* m; of linear: the middles; of parallel: one or none */
     int at_count;
-    double intensity; /* cd; lumens were converted */
+    dvec3 along; /* m, of linear: from `from` to `to`; there is one line only */
+    bool aim_at_given, up_given;
+    dvec3 aim;      /* {0,0,-1}; of one light at several places: see study_light_aim() */
+    dvec3 aim_at;   /* m, a place, in place of aim */
+    dvec3 up;       /* rect: {0,1,0}, or {1,0,0} if aim is parallel to that: study_light_up() */
+    double size[2]; /* m, rect: across, along up */
+    double radius;  /* m, disk; parallel: of the beam, NAN: everywhere */
+    double inner_deg, outer_deg;                      /* cone */
+    double exponent;                                  /* cosine: 1 */
+    double intensity, lumens, luminance, illuminance; /* cd, lm, cd/m^2, lx; NAN: not given */
+    const char *photometry; /* linear, disk, rect: ready to open; NULL: Lambertian */
     study_emission emission;
-} study_light; /* type: point, the one kind so far */
+} study_light;
 
 typedef struct study_material {
     study_where where;
@@ -69,15 +106,47 @@ typedef struct study_material {
     vec3 reflectance;
 } study_material;
 
+/* What a sensor measures. With the light's direction w, its angle e to the vertical and its azimuth
+ * a from where the sensor faces, of the radiance L that comes from all around:
+ *
+ *     planar            integral of L max(0, n . w) dw                  n: the grid's normal
+ *     vertical          the same, n being where the sensor faces
+ *     cylindrical       integral of L sin(e) / pi dw                    (EN 12464-1)
+ *     semicylindrical   integral of L sin(e) (1 + cos(a)) / pi dw       (EN 13201-3)
+ */
+typedef enum study_quantity {
+    QUANTITY_PLANAR,
+    QUANTITY_VERTICAL,
+    QUANTITY_CYLINDRICAL,
+    QUANTITY_SEMICYLINDRICAL,
+} study_quantity;
+
+/* Where a grid `on: ...` lies. */
+typedef enum study_side {
+    SIDE_NONE, /* a plane of its own, or points */
+    SIDE_ROOM, /* over the floor */
+    SIDE_FLOOR,
+    SIDE_CEILING,
+    SIDE_SOUTH, /* walls: the one at y = 0, */
+    SIDE_EAST,  /* at x = size.x, */
+    SIDE_NORTH, /* at y = size.y, */
+    SIDE_WEST,  /* at x = 0 */
+} study_side;
+
 typedef struct study_grid {
     study_where where;
     const char *name;
     dvec3 origin, u, v; /* m, if points is NULL */
-    double spacing;     /* m, > 0; of "en12464" what study_spacing_en12464() says */
+    double spacing;     /* m, > 0; of "en12464" that of the side which the standard looks at */
+    int count[2];       /* sensors along u and v; 0: by spacing (a grid that no study made) */
     const char *points; /* a CSV file, ready to open (sim/probes.h); NULL: a plane */
-    double require_average, require_minimum, require_uniformity; /* lx, lx, 1; NAN: not asked */
-    bool on_room, en12464; /* how it was written: the plane above is what it comes to */
-    double height, margin; /* m, of `on: room`: above the floor; from the walls, 0 */
+    study_quantity quantity;
+    dvec3 facing; /* horizontal, unit; of vertical and semicylindrical; else 0 */
+    double require_average, require_minimum, require_maximum, require_uniformity; /* lx, lx, lx, 1;
+                                                                                NAN: not asked */
+    study_side on; /* how it was written: the plane above is what it comes to */
+    bool en12464;
+    double height, margin; /* m: above the floor, of `on: room`; from the edges, 0 */
 } study_grid;
 
 typedef enum study_projection { PROJECTION_PERSPECTIVE, PROJECTION_ORTHOGRAPHIC } study_projection;
@@ -94,6 +163,15 @@ typedef struct study_view {
     bool size_given;
 } study_view;
 
+/* The whole of a group dimmed, besides what its lights say: `dimming` at the top of a study. Lights
+ * without a group, those of glTF files among them, are of the group STUDY_GROUP_OTHER. */
+#define STUDY_GROUP_OTHER "other"
+typedef struct study_dimming {
+    study_where where;
+    const char *group;
+    double factor; /* >= 0 */
+} study_dimming;
+
 typedef struct study {
     const char *path;   /* as given */
     const char *folder; /* of the study: "." or "a/b" */
@@ -104,35 +182,50 @@ typedef struct study {
     study_material *materials;
     study_grid *grids;
     study_view *views;
-    int scene_count, luminaire_count, light_count, material_count, grid_count, view_count;
-    double maintenance; /* 1 */
+    study_dimming *dimmings;
+    int scene_count, luminaire_count, light_count, material_count, grid_count, view_count,
+        dimming_count;
+    const char *variant; /* the one that was merged over the study; NULL */
+    double maintenance;  /* 1 */
     bool maintenance_given;
     double accuracy; /* 0.02 for 2%; NAN: not given */
 } study;
 
-/* Reads and checks the study at path into a. NULL, with *err naming file, line and column. */
-const study *study_read(arena *a, const char *path, notices *n, lux_error *err);
+/* Reads and checks the study at path into a, with its variant of that name (NULL: as it is) merged
+ * over it: mappings by key, all else replaced. NULL, with *err naming file, line and column. */
+const study *study_read(arena *a, const char *path, const char *variant, notices *n,
+                        lux_error *err);
 
 /* The same for a text in memory, of `size` bytes; path is for messages and for what the study
  * names. */
-const study *study_parse(arena *a, const char *path, const char *text, size_t size, notices *n,
-                         lux_error *err);
+const study *study_parse(arena *a, const char *path, const char *variant, const char *text,
+                         size_t size, notices *n, lux_error *err);
 
-/* Sensors of a plane grid along u and along v: max(1, round(length / spacing)). */
+/* Sensors of a plane grid along u and along v: as the study asks; of a grid that no study made (all
+ * of count 0), max(1, round(length / spacing)). */
 void study_grid_counts(const study_grid *g, double *along_u, double *along_v);
 
-/* The spacing of a grid over an area of these sides (m, > 0) as EN 12464-1:2011, 4.4,
- * asks:
+/* Sensors along the sides of an area (m, > 0) as EN 12464-1:2011, 4.4, asks for their spacing, and
+ * EN 12193 for odd numbers of them, so that one lies in the middle:
  *
  *     p = 0.2 * 5^(log10 d)        [m], at most 10 m
  *
- * with d the longer side or, if that is twice the shorter or more, the shorter one; p is the
- * largest cell allowed, so that d is cut into the next whole number of d / p. What comes back is
- * d / that number; the other side has the whole number nearest to its length / spacing. */
-double study_spacing_en12464(double side, double other);
+ * with d the longer side or, if that is twice the shorter or more, the shorter one. p is the
+ * largest cell allowed: d has the least odd number of cells that is d / p or more; the other side
+ * the odd number nearest to its length by the cells of d. Returns d / its number, m. */
+double study_counts_en12464(double side, double other, double *along_side, double *along_other);
+
+/* Where the light's place number k shines, not of unit length: its aim, or from there to aim_at;
+ * and which way is up in its rectangle, never parallel to that. */
+dvec3 study_light_aim(const study_light *l, int k);
+dvec3 study_light_up(const study_light *l, int k);
+
+/* What `dimming` at the top of the study says of a group (NULL: STUDY_GROUP_OTHER): 1, if
+ * nothing. */
+double study_group_factor(const study *s, const char *group);
 
 /* For messages of later stages about a piece of the study: fills *err like failed(), with
- * "PATH:LINE:COLUMN: " before the text, and returns NULL. */
+ * "PATH:LINE:COLUMN: " before the text (and the variant, if there is one), and returns NULL. */
 void *study_failed(const study *s, study_where where, lux_error *err, error_code code,
                    const char *format, ...) __attribute__((format(printf, 5, 6), cold));
 

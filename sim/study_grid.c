@@ -1,21 +1,68 @@
 /* sim/study_grid.c -- where illuminance is asked for: `grids` of a study.
  *
- *     on: room, height, margin   a plane over the room's floor     v +-----+
- *     origin, u, v               a parallelogram                     | . . |  sensors at
- *     points                     a file (sim/probes.h)               | . . |  cell centres
- *                                                             origin +-----+ u
+ *     on, margin       a surface of the room, or over it    v +-----+
+ *     origin, u, v     a parallelogram                        | . . |  sensors at
+ *     points           a file (sim/probes.h)                  | . . |  cell centres
+ *                                                      origin +-----+ u
  */
 #include "sim/study_read.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #define MOST_SENSORS 4e6
 
+/* What is less of a right angle is none: of planes, and of what stands upright. */
+static const double least_sine = 1e-6;
+
+/* All walls, each of which becomes a grid of its own: of no use to anybody but this file. */
+enum { SIDE_WALLS = SIDE_WEST + 1 };
+
+static const study_word sides[] = {
+    [SIDE_NONE] = { "", STUDY_OPTIONAL }, /* what is not written */
+    [SIDE_ROOM] = { "room", STUDY_OPTIONAL },       [SIDE_FLOOR] = { "floor", STUDY_OPTIONAL },
+    [SIDE_CEILING] = { "ceiling", STUDY_OPTIONAL }, [SIDE_SOUTH] = { "south", STUDY_OPTIONAL },
+    [SIDE_EAST] = { "east", STUDY_OPTIONAL },       [SIDE_NORTH] = { "north", STUDY_OPTIONAL },
+    [SIDE_WEST] = { "west", STUDY_OPTIONAL },       [SIDE_WALLS] = { "walls", STUDY_OPTIONAL },
+};
+
 static bool read_on(const study_reader *r, const yaml_node_t *value, void *field)
 {
-    static const study_word words[] = { { "room", STUDY_OPTIONAL } };
-    *(bool *)field                  = study_read_word(r, value, words, 1, sizeof *words) == 0;
-    return *(bool *)field;
+    enum { FIRST = SIDE_ROOM };
+    int i = study_read_word(r, value, sides + FIRST, SIDE_WALLS + 1 - FIRST, sizeof *sides);
+    if (i >= 0)
+        *(study_side *)field = (study_side)(i + FIRST);
+    return i >= 0;
+}
+
+static const study_word quantities[] = {
+    [QUANTITY_PLANAR]          = { "planar", STUDY_OPTIONAL },
+    [QUANTITY_VERTICAL]        = { "vertical", STUDY_OPTIONAL },
+    [QUANTITY_CYLINDRICAL]     = { "cylindrical", STUDY_OPTIONAL },
+    [QUANTITY_SEMICYLINDRICAL] = { "semicylindrical", STUDY_OPTIONAL },
+};
+
+static bool read_quantity(const study_reader *r, const yaml_node_t *value, void *field)
+{
+    int i = study_read_word(r, value, quantities, sizeof quantities / sizeof *quantities,
+                            sizeof *quantities);
+    if (i >= 0)
+        *(study_quantity *)field = (study_quantity)i;
+    return i >= 0;
+}
+
+/* A direction that is level, made so to the last bit, of length 1. */
+static bool read_facing(const study_reader *r, const yaml_node_t *value, void *field)
+{
+    dvec3 d;
+    if (!study_read_direction(r, value, &d))
+        return false;
+    double level = hypot(d.x, d.y);
+    if (!(fabs(d.z) <= least_sine * level))
+        return study_node_failed(r, value, ERR_FORMAT,
+                                 "expected a level direction, [x, y, 0], found %g upward", d.z);
+    *(dvec3 *)field = (dvec3){ d.x / level, d.y / level, 0.0 };
+    return true;
 }
 
 static bool read_spacing(const study_reader *r, const yaml_node_t *value, void *record)
@@ -36,6 +83,7 @@ static bool read_require(const study_reader *r, const yaml_node_t *value, void *
     static const study_key table[] = {
         { "average", STUDY_OPTIONAL, study_read_positive, offsetof(study_grid, require_average) },
         { "minimum", STUDY_OPTIONAL, study_read_positive, offsetof(study_grid, require_minimum) },
+        { "maximum", STUDY_OPTIONAL, study_read_positive, offsetof(study_grid, require_maximum) },
         { "uniformity", STUDY_OPTIONAL, study_read_share,
           offsetof(study_grid, require_uniformity) },
     };
@@ -45,7 +93,7 @@ static bool read_require(const study_reader *r, const yaml_node_t *value, void *
 
 static const study_key grid_table[] = {
     { "name", STUDY_REQUIRED, study_read_name, offsetof(study_grid, name) },
-    { "on", STUDY_OPTIONAL, read_on, offsetof(study_grid, on_room) },
+    { "on", STUDY_OPTIONAL, read_on, offsetof(study_grid, on) },
     { "height", STUDY_OPTIONAL, study_read_nonnegative, offsetof(study_grid, height) },
     { "margin", STUDY_OPTIONAL, study_read_nonnegative, offsetof(study_grid, margin) },
     { "origin", STUDY_OPTIONAL, study_read_place, offsetof(study_grid, origin) },
@@ -53,6 +101,8 @@ static const study_key grid_table[] = {
     { "v", STUDY_OPTIONAL, study_read_direction, offsetof(study_grid, v) },
     { "spacing", STUDY_OPTIONAL, read_spacing, 0 },
     { "points", STUDY_OPTIONAL, study_read_path, offsetof(study_grid, points) },
+    { "quantity", STUDY_OPTIONAL, read_quantity, offsetof(study_grid, quantity) },
+    { "facing", STUDY_OPTIONAL, read_facing, offsetof(study_grid, facing) },
     { "require", STUDY_OPTIONAL, read_require, 0 },
 };
 static const study_keys grid_keys = STUDY_KEYS("a grid", grid_table);
@@ -63,7 +113,7 @@ typedef struct grid_form {
 } grid_form;
 
 static const grid_form grid_forms[] = {
-    { "on", { "height", "spacing" }, { "height", "margin", "spacing" } },
+    { "on", { "spacing" }, { "height", "margin", "spacing" } },
     { "points", { NULL }, { NULL } },
     { "origin", { "u", "v", "spacing" }, { "u", "v", "spacing" } },
 };
@@ -97,6 +147,33 @@ static bool grid_form_kept(const study_reader *r, const yaml_node_t *value, cons
     return true;
 }
 
+/* A height over the floor, of the plane over it and of nothing else. */
+static bool height_kept(const study_reader *r, const yaml_node_t *value, const study_grid *g)
+{
+    const yaml_node_t *height = study_map_value(r, value, "height");
+    if (g->on == SIDE_ROOM && !height)
+        return study_node_failed(r, value, ERR_FORMAT,
+                                 "a grid with `on: room` needs the key `height`");
+    if (g->on != SIDE_ROOM && height)
+        return study_node_failed(r, height, ERR_FORMAT, "`height` does not go with `on: %s`",
+                                 sides[g->on].name);
+    return true;
+}
+
+static bool faces(const study_grid *g)
+{
+    return g->quantity == QUANTITY_VERTICAL || g->quantity == QUANTITY_SEMICYLINDRICAL;
+}
+
+static bool facing_kept(const study_reader *r, const yaml_node_t *value, const study_grid *g)
+{
+    const yaml_node_t *facing = study_map_value(r, value, "facing");
+    if (facing && !faces(g))
+        return study_node_failed(r, facing, ERR_FORMAT, "`facing` does not go with `quantity: %s`",
+                                 quantities[g->quantity].name);
+    return true;
+}
+
 static bool read_grid(const study_reader *r, const yaml_node_t *value, void *record)
 {
     study_grid *g = record;
@@ -104,85 +181,113 @@ static bool read_grid(const study_reader *r, const yaml_node_t *value, void *rec
                                   .spacing            = (double)NAN,
                                   .require_average    = (double)NAN,
                                   .require_minimum    = (double)NAN,
+                                  .require_maximum    = (double)NAN,
                                   .require_uniformity = (double)NAN,
                                   .height             = (double)NAN };
     if (!study_read_map(r, value, &grid_keys, g))
         return false;
     for (const grid_form *f = grid_forms; f < grid_forms + GRID_FORMS; f++)
         if (study_map_value(r, value, f->key))
-            return grid_form_kept(r, value, f);
+            return grid_form_kept(r, value, f) && (!g->on || height_kept(r, value, g)) &&
+                   facing_kept(r, value, g);
     return study_node_failed(r, value, ERR_FORMAT,
-                             "a grid needs `on: room`, or `origin`, `u` and `v`, or `points`");
+                             "a grid needs `on`, or `origin`, `u` and `v`, or `points`");
+}
+
+/* ---- four walls ----------------------------------------------------------------------------- */
+
+static char *wall_name(const study_reader *r, const char *grid, const char *wall)
+{
+    size_t size = strlen(grid) + strlen(wall) + 2;
+    char *name  = arena_array(r->a, char, size, r->err);
+    if (name)
+        snprintf(name, size, "%s-%s", grid, wall);
+    return name;
+}
+
+/* For each grid `on: walls` four, one a wall, in the order of the compass from the south. */
+static bool part_walls(const study_reader *r, study *s)
+{
+    int walls = 0;
+    for (int i = 0; i < s->grid_count; i++)
+        walls += (int)s->grids[i].on == SIDE_WALLS;
+    if (walls == 0)
+        return true;
+    const study_grid *from = s->grids;
+    int count = s->grid_count, to = 0;
+    s->grid_count = count + 3 * walls;
+    s->grids      = arena_array(r->a, study_grid, (size_t)s->grid_count, r->err);
+    for (int i = 0; s->grids && i < count; i++) {
+        bool all = (int)from[i].on == SIDE_WALLS;
+        for (int side = SIDE_SOUTH; side <= (all ? SIDE_WEST : SIDE_SOUTH); side++) {
+            study_grid *g = &s->grids[to++];
+            *g            = from[i];
+            if (!all)
+                continue;
+            g->on = (study_side)side;
+            if (!(g->name = wall_name(r, from[i].name, sides[side].name)))
+                return false;
+        }
+    }
+    return s->grids != NULL;
 }
 
 bool study_read_grids(const study_reader *r, const yaml_node_t *value, void *record)
 {
     study *s = record;
     s->grids = study_read_list(r, value, sizeof(study_grid), read_grid, &s->grid_count);
-    return s->grids != NULL;
+    return s->grids && part_walls(r, s);
 }
 
 /* ---- once the room is known ----------------------------------------------------------------- */
 
-double study_spacing_en12464(double side, double other)
+/* Sensors that face somewhere, and are not told where, face as the plane does, if it is upright. */
+static bool face(const study *s, study_grid *g, dvec3 normal, lux_error *err)
 {
-    double longer  = fmax(side, other);
-    double shorter = fmin(side, other);
-    double d       = longer / shorter >= 2.0 ? shorter : longer;
-    double p       = fmin(0.2 * pow(5.0, log10(d)), 10.0);
-    double cells   = ceil(d / p - 1e-9); /* 10 m at 1 m: 10, whatever pow() rounds to */
-    return d / cells;
+    if (!faces(g) || d3_length(g->facing) > 0.0)
+        return true;
+    double level = hypot(normal.x, normal.y);
+    if (!(level > 0.0 && fabs(normal.z) <= least_sine * level))
+        return study_failed(s, g->where, err, ERR_FORMAT,
+                            "`quantity: %s` needs the key `facing`, as the grid does not stand "
+                            "upright",
+                            quantities[g->quantity].name);
+    g->facing = (dvec3){ normal.x / level, normal.y / level, 0.0 };
+    return true;
 }
 
-void study_grid_counts(const study_grid *g, double *along_u, double *along_v)
+static bool count_sensors(const study *s, study_grid *g, lux_error *err)
 {
-    *along_u = fmax(1.0, round(d3_length(g->u) / g->spacing));
-    *along_v = fmax(1.0, round(d3_length(g->v) / g->spacing));
-}
-
-static bool place_in_room(const study *s, study_grid *g, lux_error *err)
-{
-    const study_room *room = &s->room;
-    if (!room->given)
-        return study_failed(s, g->where, err, ERR_FORMAT, "`on: room`, but there is no `room`");
-    if (!(g->height < room->size.z))
+    double along_u, along_v;
+    if (g->en12464)
+        g->spacing = study_counts_en12464(d3_length(g->u), d3_length(g->v), &along_u, &along_v);
+    else
+        study_grid_counts(g, &along_u, &along_v);
+    if (!(along_u * along_v <= MOST_SENSORS))
         return study_failed(s, g->where, err, ERR_FORMAT,
-                            "`height: %g` is not below the ceiling at %g m", g->height,
-                            room->size.z);
-
-    double x = room->size.x - 2.0 * g->margin;
-    double y = room->size.y - 2.0 * g->margin;
-    if (!(x > 0.0 && y > 0.0))
-        return study_failed(s, g->where, err, ERR_FORMAT,
-                            "`margin: %g` leaves nothing of a room of %g by %g m", g->margin,
-                            room->size.x, room->size.y);
-    g->origin = (dvec3){ g->margin, g->margin, g->height };
-    g->u      = (dvec3){ x, 0, 0 };
-    g->v      = (dvec3){ 0, y, 0 };
+                            "%.0f by %.0f sensors, expected at most %.0f", along_u, along_v,
+                            MOST_SENSORS);
+    g->count[0] = (int)along_u;
+    g->count[1] = (int)along_v;
     return true;
 }
 
 static bool finish_grid(const study *s, study_grid *g, lux_error *err)
 {
-    if (g->points)
+    if (g->points) {
+        if (faces(g) && !(d3_length(g->facing) > 0.0))
+            return study_failed(s, g->where, err, ERR_FORMAT,
+                                "`quantity: %s` of `points` needs the key `facing`",
+                                quantities[g->quantity].name);
         return true;
-    if (g->on_room && !place_in_room(s, g, err))
+    }
+    if (g->on && !study_grid_place(s, g, err))
         return false;
-
-    /* Below a millionth of a right angle there is no plane to speak of */
-    double across = d3_length(d3_cross(g->u, g->v));
-    if (!(across > 1e-6 * d3_length(g->u) * d3_length(g->v)))
+    dvec3 normal  = d3_cross(g->u, g->v);
+    double across = d3_length(normal);
+    if (!(across > least_sine * d3_length(g->u) * d3_length(g->v)))
         return study_failed(s, g->where, err, ERR_FORMAT, "`u` and `v` are parallel");
-    if (g->en12464)
-        g->spacing = study_spacing_en12464(d3_length(g->u), d3_length(g->v));
-
-    double along_u, along_v;
-    study_grid_counts(g, &along_u, &along_v);
-    if (!(along_u * along_v <= MOST_SENSORS))
-        return study_failed(s, g->where, err, ERR_FORMAT,
-                            "%.0f by %.0f sensors, expected at most %.0f", along_u, along_v,
-                            MOST_SENSORS);
-    return true;
+    return face(s, g, d3_scale(normal, 1.0 / across), err) && count_sensors(s, g, err);
 }
 
 bool study_finish_grids(const study *s, lux_error *err)

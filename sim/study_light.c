@@ -1,123 +1,243 @@
-/* sim/study_light.c -- what shines: `luminaires` and `lights` of a study.
+/* sim/study_light.c -- ideal lamps: `lights` of a study.
  *
- * A new kind of ideal light is a line in light_kinds, with the table of its keys.
+ * A new kind is a line in light_kinds, with the table of its keys.
  */
 #include "sim/study_read.h"
 
-static const study_emission plain_light = { .color = { 1, 1, 1 }, .dimming = 1.0 };
+#include <stdio.h>
+#include <string.h>
 
-/* ---- luminaires ----------------------------------------------------------------------------- */
+static const double too_near     = 1e-9; /* m: nearer, one does not aim at a place */
+static const double least_sine   = 1e-6; /* of an angle: below, two directions are parallel */
+static const double largest_cosn = 1e4;  /* exponent of the cosine; a beam of 1 degree at half */
 
-static bool read_luminaire_at(const study_reader *r, const yaml_node_t *value, void *record)
-{
-    study_luminaire *l = record;
-    return (l->at = study_read_places(r, value, &l->at_count)) != NULL;
-}
-
-#define IN_LUMINAIRE(field) offsetof(study_luminaire, field)
-
-static const study_key luminaire_table[] = {
-    { "name", STUDY_OPTIONAL, study_read_name, IN_LUMINAIRE(name) },
-    { "photometry", STUDY_REQUIRED, study_read_path, IN_LUMINAIRE(photometry) },
-    { "at", STUDY_REQUIRED, read_luminaire_at, 0 },
-    { "aim", STUDY_OPTIONAL, study_read_direction, IN_LUMINAIRE(aim) },
-    { "rotate", STUDY_OPTIONAL, study_read_number, IN_LUMINAIRE(rotate_deg) },
-    { "lumens", STUDY_OPTIONAL, study_read_nonnegative, IN_LUMINAIRE(lumens) },
-    { "lamp_lumens", STUDY_OPTIONAL, study_read_nonnegative, IN_LUMINAIRE(lamp_lumens) },
-    { "watts", STUDY_OPTIONAL, study_read_nonnegative, IN_LUMINAIRE(watts) },
-    { "color", STUDY_OPTIONAL, study_read_color, IN_LUMINAIRE(emission.color) },
-    { "dimming", STUDY_OPTIONAL, study_read_nonnegative, IN_LUMINAIRE(emission.dimming) },
-    { "group", STUDY_NOT_YET },
-    { "layout", STUDY_NOT_YET },
-    { "nodes", STUDY_NOT_YET },
-    { "aim_at", STUDY_NOT_YET },
-};
-static const study_keys luminaire_keys = STUDY_KEYS("a luminaire", luminaire_table);
-
-static bool read_luminaire(const study_reader *r, const yaml_node_t *value, void *record)
-{
-    study_luminaire *l = record;
-    *l                 = (study_luminaire){ .where       = study_node_where(value),
-                                            .aim         = { 0, 0, -1 },
-                                            .lumens      = (double)NAN,
-                                            .lamp_lumens = (double)NAN,
-                                            .watts       = (double)NAN,
-                                            .emission    = plain_light };
-    if (!study_read_map(r, value, &luminaire_keys, l))
-        return false;
-    if (!isnan(l->lumens) && !isnan(l->lamp_lumens))
-        return study_node_failed(r, value, ERR_FORMAT,
-                                 "a luminaire takes `lumens` or `lamp_lumens`, not both");
-    return true;
-}
-
-bool study_read_luminaires(const study_reader *r, const yaml_node_t *value, void *record)
-{
-    study *s = record;
-    s->luminaires =
-        study_read_list(r, value, sizeof(study_luminaire), read_luminaire, &s->luminaire_count);
-    return s->luminaires != NULL;
-}
-
-/* ---- lights --------------------------------------------------------------------------------- */
+/* ---- keys ----------------------------------------------------------------------------------- */
 
 typedef struct light_draft { /* a light, and what of its keys the light itself does not keep */
     study_light light;
-    double lumens; /* lm; NAN: not given */
-    int kind;      /* in light_kinds */
+    dvec3 from, to; /* m, linear */
+    int kind;       /* in light_kinds */
 } light_draft;
 
-typedef struct light_kind {
-    study_word type;
-    const study_keys *keys;
-    bool (*finish)(const study_reader *r, const yaml_node_t *value, light_draft *draft);
-} light_kind;
+static study_read_fn read_type;
 
-static bool read_light_type(const study_reader *r, const yaml_node_t *value, void *draft);
-
-static bool read_light_at(const study_reader *r, const yaml_node_t *value, void *draft)
+static bool read_at(const study_reader *r, const yaml_node_t *value, void *draft)
 {
     study_light *l = &((light_draft *)draft)->light;
     return (l->at = study_read_places(r, value, &l->at_count)) != NULL;
 }
 
-/* A point that shines alike all around: lumens = 4 pi candelas. */
-static bool finish_point(const study_reader *r, const yaml_node_t *value, light_draft *draft)
+static bool read_one_at(const study_reader *r, const yaml_node_t *value, void *draft)
 {
-    bool by_lumens = !isnan(draft->lumens);
-    if (by_lumens == !isnan(draft->light.intensity))
-        return study_node_failed(r, value, ERR_FORMAT,
-                                 "a point light takes either `intensity` or `lumens`, found %s",
-                                 by_lumens ? "both" : "neither");
-    if (by_lumens)
-        draft->light.intensity = draft->lumens / (4.0 * M_PI);
+    study_light *l = &((light_draft *)draft)->light;
+    l->at          = arena_new(r->a, dvec3, r->err);
+    l->at_count    = 1;
+    return l->at && study_read_place(r, value, l->at);
+}
+
+static bool read_aim_at(const study_reader *r, const yaml_node_t *value, void *draft)
+{
+    study_light *l         = &((light_draft *)draft)->light;
+    return l->aim_at_given = study_read_place(r, value, &l->aim_at);
+}
+
+static bool read_up(const study_reader *r, const yaml_node_t *value, void *draft)
+{
+    study_light *l     = &((light_draft *)draft)->light;
+    return l->up_given = study_read_direction(r, value, &l->up);
+}
+
+static bool read_half_angle(const study_reader *r, const yaml_node_t *value, void *field)
+{
+    double degrees;
+    if (!study_read_nonnegative(r, value, &degrees))
+        return false;
+    *(double *)field = degrees;
+    return degrees <= 180.0 || study_unexpected(r, value, "an angle from 0 to 180 degrees");
+}
+
+static bool read_exponent(const study_reader *r, const yaml_node_t *value, void *field)
+{
+    double n;
+    if (!study_read_nonnegative(r, value, &n))
+        return false;
+    *(double *)field = n;
+    return n <= largest_cosn || study_unexpected(r, value, "a number from 0 to 10000");
+}
+
+static bool read_rect_size(const study_reader *r, const yaml_node_t *value, void *field)
+{
+    if (study_items(value) != 2)
+        return study_unexpected(r, value, "[across, along up]");
+    double *size = field;
+    return study_read_positive(r, study_item(r, value, 0), &size[0]) &&
+           study_read_positive(r, study_item(r, value, 1), &size[1]);
+}
+
+#define IN_LIGHT(field) offsetof(light_draft, light.field)
+
+#define KEYS_OF_ALL                                                                                \
+    STUDY_EMITTER_KEYS(study_light), { "type", STUDY_REQUIRED, read_type, 0 }
+#define KEYS_OF_AIM                                                                                \
+    { "at", STUDY_REQUIRED, read_at, 0 },                                                          \
+        { "aim", STUDY_OPTIONAL, study_read_direction, IN_LIGHT(aim) },                            \
+    {                                                                                              \
+        "aim_at", STUDY_OPTIONAL, read_aim_at, 0                                                   \
+    }
+#define KEY_OF_STRENGTH(name)                                                                      \
+    {                                                                                              \
+#name, STUDY_OPTIONAL, study_read_nonnegative, IN_LIGHT(name)                              \
+    }
+#define KEY_OF_PHOTOMETRY                                                                          \
+    {                                                                                              \
+        "photometry", STUDY_OPTIONAL, study_read_path, IN_LIGHT(photometry)                        \
+    }
+
+_Static_assert(offsetof(light_draft, light) == 0, "a draft is read as the light it begins with");
+
+static const study_key point_table[] = {
+    KEYS_OF_ALL,
+    { "at", STUDY_REQUIRED, read_at, 0 },
+    KEY_OF_STRENGTH(intensity),
+    KEY_OF_STRENGTH(lumens),
+};
+static const study_key cone_table[] = {
+    KEYS_OF_ALL,
+    KEYS_OF_AIM,
+    KEY_OF_STRENGTH(intensity),
+    KEY_OF_STRENGTH(lumens),
+    { "inner", STUDY_OPTIONAL, read_half_angle, IN_LIGHT(inner_deg) },
+    { "outer", STUDY_REQUIRED, read_half_angle, IN_LIGHT(outer_deg) },
+};
+static const study_key cosine_table[] = {
+    KEYS_OF_ALL,
+    KEYS_OF_AIM,
+    KEY_OF_STRENGTH(intensity),
+    KEY_OF_STRENGTH(lumens),
+    { "exponent", STUDY_OPTIONAL, read_exponent, IN_LIGHT(exponent) },
+};
+static const study_key parallel_table[] = {
+    KEYS_OF_ALL,
+    { "aim", STUDY_REQUIRED, study_read_direction, IN_LIGHT(aim) },
+    KEY_OF_STRENGTH(illuminance),
+    { "at", STUDY_OPTIONAL, read_one_at, 0 },
+    { "radius", STUDY_OPTIONAL, study_read_positive, IN_LIGHT(radius) },
+};
+static const study_key linear_table[] = {
+    KEYS_OF_ALL,
+    { "from", STUDY_REQUIRED, study_read_place, offsetof(light_draft, from) },
+    { "to", STUDY_REQUIRED, study_read_place, offsetof(light_draft, to) },
+    KEY_OF_STRENGTH(lumens),
+    KEY_OF_STRENGTH(intensity),
+    KEY_OF_PHOTOMETRY,
+};
+static const study_key disk_table[] = {
+    KEYS_OF_ALL,
+    KEYS_OF_AIM,
+    { "radius", STUDY_REQUIRED, study_read_positive, IN_LIGHT(radius) },
+    KEY_OF_STRENGTH(luminance),
+    KEY_OF_STRENGTH(lumens),
+    KEY_OF_PHOTOMETRY,
+};
+static const study_key rect_table[] = {
+    KEYS_OF_ALL,
+    KEYS_OF_AIM,
+    { "up", STUDY_OPTIONAL, read_up, 0 },
+    { "size", STUDY_REQUIRED, read_rect_size, IN_LIGHT(size) },
+    KEY_OF_STRENGTH(luminance),
+    KEY_OF_STRENGTH(lumens),
+    KEY_OF_PHOTOMETRY,
+};
+
+/* ---- what a kind asks for besides ----------------------------------------------------------- */
+
+static bool finish_cone(const study_reader *r, const yaml_node_t *value, light_draft *d)
+{
+    const study_light *l = &d->light;
+    return l->inner_deg < l->outer_deg ||
+           study_node_failed(r, value, ERR_FORMAT,
+                             "expected `inner` < `outer` (half angles), found %g and %g",
+                             l->inner_deg, l->outer_deg);
+}
+
+static bool finish_parallel(const study_reader *r, const yaml_node_t *value, light_draft *d)
+{
+    return (d->light.at != NULL) == !isnan(d->light.radius) ||
+           study_node_failed(r, value, ERR_FORMAT,
+                             "a parallel light takes both `at` and `radius` (a beam) or neither");
+}
+
+static bool finish_linear(const study_reader *r, const yaml_node_t *value, light_draft *d)
+{
+    study_light *l = &d->light;
+    l->along       = d3_sub(d->to, d->from);
+    if (!(d3_length(l->along) > too_near))
+        return study_node_failed(r, value, ERR_FORMAT, "`from` and `to` are at the same place");
+    l->at       = arena_new(r->a, dvec3, r->err);
+    l->at_count = 1;
+    if (l->at)
+        *l->at = d3_scale(d3_add(d->from, d->to), 0.5);
+    return l->at != NULL;
+}
+
+static bool are_parallel(dvec3 a, dvec3 b)
+{
+    return !(d3_length(d3_cross(a, b)) > least_sine * d3_length(a) * d3_length(b));
+}
+
+static bool finish_rect(const study_reader *r, const yaml_node_t *value, light_draft *d)
+{
+    study_light *l = &d->light;
+    for (int k = 0; l->up_given && k < l->at_count; k++)
+        if (are_parallel(l->up, study_light_aim(l, k)))
+            return study_node_failed(r, value, ERR_FORMAT, "`up` is parallel to `%s`",
+                                     l->aim_at_given ? "aim_at" : "aim");
+    l->up = study_light_up(l, 0);
     return true;
 }
 
-static const study_key point_table[] = {
-    { "type", STUDY_REQUIRED, read_light_type, 0 },
-    { "name", STUDY_OPTIONAL, study_read_name, offsetof(light_draft, light.name) },
-    { "at", STUDY_REQUIRED, read_light_at, 0 },
-    { "intensity", STUDY_OPTIONAL, study_read_nonnegative, offsetof(light_draft, light.intensity) },
-    { "lumens", STUDY_OPTIONAL, study_read_nonnegative, offsetof(light_draft, lumens) },
-    { "color", STUDY_OPTIONAL, study_read_color, offsetof(light_draft, light.emission.color) },
-    { "dimming", STUDY_OPTIONAL, study_read_nonnegative,
-      offsetof(light_draft, light.emission.dimming) },
-    { "group", STUDY_NOT_YET },
-};
-static const study_keys point_keys = STUDY_KEYS("a point light", point_table);
+dvec3 study_light_aim(const study_light *l, int k)
+{
+    return l->aim_at_given ? d3_sub(l->aim_at, l->at[k]) : l->aim;
+}
 
+dvec3 study_light_up(const study_light *l, int k)
+{
+    static const dvec3 north = { 0, 1, 0 }, east = { 1, 0, 0 };
+    if (l->up_given)
+        return l->up;
+    return are_parallel(north, study_light_aim(l, k)) ? east : north;
+}
+
+/* ---- kinds ---------------------------------------------------------------------------------- */
+
+typedef struct light_kind {
+    study_word type;
+    study_keys keys;
+    const char *strengths[2]; /* "intensity", "lumens": one of them is given */
+    bool (*finish)(const study_reader *r, const yaml_node_t *value, light_draft *draft); /* NULL */
+} light_kind;
+
+/* clang-format off */
 static const light_kind light_kinds[] = {
-    { { "point", STUDY_OPTIONAL }, &point_keys, finish_point },
-    { { "cone", STUDY_NOT_YET } },
-    { { "cosine", STUDY_NOT_YET } },
-    { { "parallel", STUDY_NOT_YET } },
-    { { "linear", STUDY_NOT_YET } },
-    { { "disk", STUDY_NOT_YET } },
-    { { "rect", STUDY_NOT_YET } },
+    [STUDY_POINT]    = { { "point" }, STUDY_KEYS("a point light", point_table),
+                         { "intensity", "lumens" }, NULL },
+    [STUDY_CONE]     = { { "cone" }, STUDY_KEYS("a cone light", cone_table),
+                         { "intensity", "lumens" }, finish_cone },
+    [STUDY_COSINE]   = { { "cosine" }, STUDY_KEYS("a cosine light", cosine_table),
+                         { "intensity", "lumens" }, NULL },
+    [STUDY_PARALLEL] = { { "parallel" }, STUDY_KEYS("a parallel light", parallel_table),
+                         { "illuminance" }, finish_parallel },
+    [STUDY_LINEAR]   = { { "linear" }, STUDY_KEYS("a linear light", linear_table),
+                         { "intensity", "lumens" }, finish_linear },
+    [STUDY_DISK]     = { { "disk" }, STUDY_KEYS("a disk light", disk_table),
+                         { "luminance", "lumens" }, NULL },
+    [STUDY_RECT]     = { { "rect" }, STUDY_KEYS("a rect light", rect_table),
+                         { "luminance", "lumens" }, finish_rect },
 };
+/* clang-format on */
 
-static bool read_light_type(const study_reader *r, const yaml_node_t *value, void *draft)
+static bool read_type(const study_reader *r, const yaml_node_t *value, void *draft)
 {
     light_draft *d = draft;
     d->kind        = study_read_word(r, value, &light_kinds[0].type,
@@ -125,19 +245,59 @@ static bool read_light_type(const study_reader *r, const yaml_node_t *value, voi
     return d->kind >= 0;
 }
 
+/* Exactly one strength; with photometry, which has one, lumens or none. */
+static bool one_strength(const study_reader *r, const yaml_node_t *value, const light_kind *kind,
+                         const study_light *l)
+{
+    const char *const *name = kind->strengths;
+    bool first              = study_map_value(r, value, name[0]) != NULL;
+    bool second             = name[1] && study_map_value(r, value, name[1]) != NULL;
+    if (l->photometry)
+        return !first || study_node_failed(r, value, ERR_FORMAT,
+                                           "`%s` does not go with `photometry`", name[0]);
+    if (first != second)
+        return true;
+    if (!name[1])
+        return study_node_failed(r, value, ERR_FORMAT, "%s needs the key `%s`", kind->keys.what,
+                                 name[0]);
+    return study_node_failed(r, value, ERR_FORMAT, "%s takes either `%s` or `%s`, found %s",
+                             kind->keys.what, name[0], name[1], first ? "both" : "neither");
+}
+
+static bool aimed_well(const study_reader *r, const yaml_node_t *value, const study_light *l)
+{
+    if (!l->aim_at_given)
+        return true;
+    if (study_map_value(r, value, "aim"))
+        return study_node_failed(r, value, ERR_FORMAT, "a light takes `aim` or `aim_at`, not both");
+    for (int k = 0; k < l->at_count; k++)
+        if (!(d3_length(study_light_aim(l, k)) > too_near))
+            return study_node_failed(r, value, ERR_FORMAT, "`aim_at` is where the light is");
+    return true;
+}
+
 static bool read_light(const study_reader *r, const yaml_node_t *value, void *record)
 {
-    light_draft draft = { .light  = { .where     = study_node_where(value),
-                                      .intensity = (double)NAN,
-                                      .emission  = plain_light },
-                          .lumens = (double)NAN };
+    light_draft draft = { .light = { .where       = study_node_where(value),
+                                     .aim         = { 0, 0, -1 },
+                                     .up          = { 0, 1, 0 },
+                                     .radius      = (double)NAN,
+                                     .exponent    = 1.0,
+                                     .intensity   = (double)NAN,
+                                     .lumens      = (double)NAN,
+                                     .luminance   = (double)NAN,
+                                     .illuminance = (double)NAN,
+                                     .emission    = STUDY_EMISSION_PLAIN } };
 
     /* The type says which keys there are: it is read first, wherever it stands */
     const yaml_node_t *type = study_map_value(r, value, "type");
-    if (type && !read_light_type(r, type, &draft))
+    if (type && !read_type(r, type, &draft))
         return false;
     const light_kind *kind = &light_kinds[draft.kind];
-    if (!study_read_map(r, value, kind->keys, &draft) || !kind->finish(r, value, &draft))
+    draft.light.kind       = (study_light_kind)draft.kind;
+    if (!study_read_map(r, value, &kind->keys, &draft) ||
+        !one_strength(r, value, kind, &draft.light) || !aimed_well(r, value, &draft.light) ||
+        (kind->finish && !kind->finish(r, value, &draft)))
         return false;
     *(study_light *)record = draft.light;
     return true;

@@ -52,6 +52,13 @@ study_found study_node_found(const yaml_node_t *n)
     return f;
 }
 
+study_found study_text_found(const char *text)
+{
+    study_found f;
+    show_text(f.text, text, strlen(text));
+    return f;
+}
+
 void *study_node_failed(const study_reader *r, const yaml_node_t *n, error_code code,
                         const char *format, ...)
 {
@@ -61,6 +68,9 @@ void *study_node_failed(const study_reader *r, const yaml_node_t *n, error_code 
     vsnprintf(text, sizeof text, format, args);
     va_end(args);
     study_where at = study_node_where(n);
+    if (r->variant)
+        return failed(r->err, code, "%s:%d:%d: with the variant `%s`: %s", r->path, at.line,
+                      at.column, r->variant, text);
     return failed(r->err, code, "%s:%d:%d: %s", r->path, at.line, at.column, text);
 }
 
@@ -95,18 +105,22 @@ static int edit_distance(const char *a, const char *b)
     return d[rows][columns];
 }
 
+void study_guess_show(study_guess *g, const char *candidate)
+{
+    int distance = edit_distance(g->wrong, candidate);
+    int most     = g->nearest ? g->distance - 1 : (int)(strnlen(g->wrong, 31) + 1) / 2;
+    if (distance <= most)
+        g->distance = distance, g->nearest = candidate;
+}
+
 static void *key_unknown(const study_reader *r, const yaml_node_t *key, const study_keys *keys)
 {
-    const char *name = study_node_text(key), *nearest = NULL;
-    int best = (int)(strnlen(name, 31) + 1) / 2; /* half of it may be wrong */
-    for (int k = 0; k < keys->count; k++) {
-        int distance = edit_distance(name, keys->key[k].name);
-        if (distance < best || (distance == best && !nearest))
-            best = distance, nearest = keys->key[k].name;
-    }
-    if (nearest)
+    study_guess guess = { .wrong = study_node_text(key) };
+    for (int k = 0; k < keys->count; k++)
+        study_guess_show(&guess, keys->key[k].name);
+    if (guess.nearest)
         return study_node_failed(r, key, ERR_FORMAT, "unknown key %s: did you mean `%s`?",
-                                 study_node_found(key).text, nearest);
+                                 study_node_found(key).text, guess.nearest);
 
     char all[300] = "";
     for (int k = 0; k < keys->count; k++) {
@@ -135,6 +149,12 @@ static bool keys_complete(const study_reader *r, const yaml_node_t *map, const s
     return true;
 }
 
+static void *key_stands_twice(const study_reader *r, const yaml_node_t *name, int line)
+{
+    return study_node_failed(r, name, ERR_FORMAT, "the key `%s` stands in line %d already",
+                             study_text_found(study_node_text(name)).text, line);
+}
+
 bool study_read_map(const study_reader *r, const yaml_node_t *map, const study_keys *keys,
                     void *record)
 {
@@ -154,8 +174,7 @@ bool study_read_map(const study_reader *r, const yaml_node_t *map, const study_k
 
         int *line = &line_of_key[key - keys->key];
         if (*line)
-            return study_node_failed(r, name, ERR_FORMAT, "the key `%s` stands in line %d already",
-                                     key->name, *line);
+            return key_stands_twice(r, name, *line);
         *line = study_node_where(name).line;
         if (key->state == STUDY_NOT_YET)
             return study_node_failed(r, name, ERR_UNSUPPORTED, "`%s` is not supported yet",
@@ -176,6 +195,43 @@ const yaml_node_t *study_map_value(const study_reader *r, const yaml_node_t *map
         if (!strcmp(study_node_text(yaml_document_get_node(r->tree, pair->key)), key))
             return yaml_document_get_node(r->tree, pair->value);
     return NULL;
+}
+
+/* The node at which the key of that text stands before `pair`, or NULL. */
+static const yaml_node_t *key_before(const study_reader *r, const yaml_node_t *map,
+                                     const yaml_node_pair_t *pair, const char *text)
+{
+    const yaml_node_pair_t *first = map->data.mapping.pairs.start;
+    for (; first < pair; first++) {
+        const yaml_node_t *key = yaml_document_get_node(r->tree, first->key);
+        if (!strcmp(study_node_text(key), text))
+            return key;
+    }
+    return NULL;
+}
+
+bool study_read_names(const study_reader *r, const yaml_node_t *map, study_read_pair_fn *read,
+                      void *record)
+{
+    if (map->type != YAML_MAPPING_NODE)
+        return study_unexpected(r, map, "a mapping (key: value)");
+    ptrdiff_t count = map->data.mapping.pairs.top - map->data.mapping.pairs.start;
+    if (count > STUDY_MOST_NAMES)
+        return study_node_failed(r, map, ERR_FORMAT, "a mapping of %td keys, expected at most %d",
+                                 count, STUDY_MOST_NAMES);
+
+    const yaml_node_pair_t *pair = map->data.mapping.pairs.start;
+    for (; pair < map->data.mapping.pairs.top; pair++) {
+        const yaml_node_t *key = yaml_document_get_node(r->tree, pair->key);
+        if (key->type != YAML_SCALAR_NODE)
+            return study_unexpected(r, key, "the name of a key");
+        const yaml_node_t *twin = key_before(r, map, pair, study_node_text(key));
+        if (twin)
+            return key_stands_twice(r, key, study_node_where(twin).line);
+        if (!read(r, key, yaml_document_get_node(r->tree, pair->value), record))
+            return false;
+    }
+    return true;
 }
 
 /* ---- lists ---------------------------------------------------------------------------------- */

@@ -16,12 +16,17 @@
 #include <stddef.h>
 #include <yaml.h>
 
-enum { STUDY_MOST_ITEMS = 100000, STUDY_MOST_KEYS = 32 };
+enum {
+    STUDY_MOST_ITEMS = 100000,
+    STUDY_MOST_KEYS  = 32,
+    STUDY_MOST_NAMES = 64, /* in a mapping by names that the user chose: groups, variants */
+};
 
 typedef struct study_reader {
     arena *a; /* of the study */
     yaml_document_t *tree;
     const char *path, *folder; /* as in study */
+    const char *variant;       /* that is merged over the study, for messages; NULL */
     notices *notices;          /* may be NULL */
     lux_error *err;            /* may be NULL */
 } study_reader;
@@ -56,8 +61,23 @@ typedef struct study_keys {
 bool study_read_map(const study_reader *r, const yaml_node_t *map, const study_keys *keys,
                     void *record);
 
+/* The same for a mapping whose keys are names: at most STUDY_MOST_NAMES, none twice. `read` is
+ * given `record` with the key and the value of each. */
+typedef bool study_read_pair_fn(const study_reader *r, const yaml_node_t *key,
+                                const yaml_node_t *value, void *record);
+bool study_read_names(const study_reader *r, const yaml_node_t *map, study_read_pair_fn *read,
+                      void *record);
+
 /* The value of a key, or NULL if map is no mapping or has no such key. */
 const yaml_node_t *study_map_value(const study_reader *r, const yaml_node_t *map, const char *key);
+
+/* Which of many names a wrong one was meant to be: begins as { .wrong = ... }, is shown each; then
+ * nearest is the one, or NULL if half of it or more would be wrong. */
+typedef struct study_guess {
+    const char *wrong, *nearest;
+    int distance;
+} study_guess;
+void study_guess_show(study_guess *g, const char *candidate);
 
 /* ---- lists ---------------------------------------------------------------------------------- */
 
@@ -102,8 +122,17 @@ study_read_fn study_read_color;       /* vec3, luminance 1; "4000K" or RGB */
 /* One triple, or a list of triples, at least one. NULL if it fails. */
 dvec3 *study_read_places(const study_reader *r, const yaml_node_t *value, int *count);
 
+study_read_fn study_read_group; /* const char *; a name that stands for no other light */
+
+/* Whether it is `~`, `null` or nothing at all. */
+bool study_is_null(const yaml_node_t *n);
+
 /* A list of two whole numbers in [1, most]. */
 bool study_read_pair(const study_reader *r, const yaml_node_t *value, int most, int pair[2]);
+
+/* The same for `count` > 0 numbers; `wanted` is for the message. */
+bool study_read_wholes(const study_reader *r, const yaml_node_t *value, int most,
+                       const char *wanted, int count, int *out);
 
 /* ---- messages ------------------------------------------------------------------------------- */
 
@@ -114,6 +143,7 @@ typedef struct study_found {
     char text[80];
 } study_found;
 study_found study_node_found(const yaml_node_t *n);
+study_found study_text_found(const char *text); /* without quotes or `` */
 
 /* The text of a scalar, "" for other nodes. */
 const char *study_node_text(const yaml_node_t *n);

@@ -6,11 +6,46 @@
 
 /* Values of top-level keys, read into a study. */
 study_read_fn study_read_room, study_read_scenes, study_read_materials; /* study_scene.c */
-study_read_fn study_read_luminaires, study_read_lights;                 /* study_light.c */
+study_read_fn study_read_luminaires;                                    /* study_luminaire.c */
+study_read_fn study_read_lights;                                        /* study_light.c */
+study_read_fn study_read_dimmings;                                      /* study_group.c */
 study_read_fn study_read_grids;                                         /* study_grid.c */
 study_read_fn study_read_views;                                         /* study_view.c */
+study_read_fn study_read_variants;                                      /* study_variant.c */
 
-/* Once all is read: the planes of grids `on: room`, the spacings by standard, the counts. */
+/* What luminaires and lights share: their name, and keys of the study_emission at an offset. */
+#define STUDY_EMITTER_KEYS(record)                                                                 \
+    { "name", STUDY_OPTIONAL, study_read_name, offsetof(record, name) },                           \
+        { "color", STUDY_OPTIONAL, study_read_color, offsetof(record, emission.color) },           \
+        { "dimming", STUDY_OPTIONAL, study_read_nonnegative, offsetof(record, emission.dimming) }, \
+    {                                                                                              \
+        "group", STUDY_OPTIONAL, study_read_group, offsetof(record, emission.group)                \
+    }
+#define STUDY_EMISSION_PLAIN                                                                       \
+    {                                                                                              \
+        .color = { 1, 1, 1 }, .dimming = 1.0                                                       \
+    }
+
+/* Once all is read. The places of luminaires with `layout`, and whether each can look at `aim_at`;
+ * whether groups are there to be dimmed; the planes of grids on surfaces of the room, and counts.
+ */
+bool study_finish_luminaires(study *s, arena *a, lux_error *err);
+bool study_finish_dimmings(const study *s, lux_error *err);
 bool study_finish_grids(const study *s, lux_error *err);
+
+/* The plane of a grid `on: ...` (study_grid_place.c). */
+bool study_grid_place(const study *s, study_grid *g, lux_error *err);
+
+/* ---- variants: study_variant.c -------------------------------------------------------------- */
+
+/* Of the study's `variants`, which study_read_variants() called good: the number of them, the name
+ * of one, and the index in the tree of a study with that one merged over it: < 0, with the error,
+ * if that cannot be. The last moves nodes: pointers to nodes are no longer good. */
+int study_variant_count(const study_reader *r);
+const char *study_variant_name(const study_reader *r, int i);
+int study_variant_merge(const study_reader *r, int i);
+
+/* Which of them is called that: < 0, with the error, if none is. */
+int study_variant_find(const study_reader *r, const char *name);
 
 #endif

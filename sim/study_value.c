@@ -129,27 +129,33 @@ bool study_read_switch(const study_reader *r, const yaml_node_t *value, void *fi
     return study_unexpected(r, value, "on or off");
 }
 
-bool study_read_pair(const study_reader *r, const yaml_node_t *value, int most, int pair[2])
+bool study_read_wholes(const study_reader *r, const yaml_node_t *value, int most,
+                       const char *wanted, int count, int *out)
 {
-    char wanted[64];
-    snprintf(wanted, sizeof wanted, "two whole numbers from 1 to %d", most);
-    if (study_items(value) != 2)
+    if (study_items(value) != count)
         return study_unexpected(r, value, wanted);
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < count; i++) {
         const yaml_node_t *item = study_item(r, value, i);
         double x;
         if (!read_in(r, item, &any, &x))
             return false;
         if (!(x >= 1.0 && x <= most && x == floor(x)))
             return study_unexpected(r, item, wanted);
-        pair[i] = (int)x;
+        out[i] = (int)x;
     }
     return true;
 }
 
+bool study_read_pair(const study_reader *r, const yaml_node_t *value, int most, int pair[2])
+{
+    char wanted[64];
+    snprintf(wanted, sizeof wanted, "two whole numbers from 1 to %d", most);
+    return study_read_wholes(r, value, most, wanted, 2, pair);
+}
+
 /* ---- texts ---------------------------------------------------------------------------------- */
 
-static bool is_null(const yaml_node_t *n)
+bool study_is_null(const yaml_node_t *n)
 {
     const char *s = study_node_text(n);
     return is_plain(n) && (!*s || !strcmp(s, "~") || !strcmp(s, "null") || !strcmp(s, "Null") ||
@@ -170,7 +176,7 @@ static char *keep(const study_reader *r, const char *front, const char *text)
 /* A text that fits into one line of a message: `wanted` is what it should have been. */
 static bool text_is_good(const study_reader *r, const yaml_node_t *value, const char *wanted)
 {
-    if (value->type != YAML_SCALAR_NODE || is_null(value) || !value->data.scalar.length)
+    if (value->type != YAML_SCALAR_NODE || study_is_null(value) || !value->data.scalar.length)
         return study_unexpected(r, value, wanted);
     for (size_t i = 0; i < value->data.scalar.length; i++)
         if (value->data.scalar.value[i] < 0x20 || value->data.scalar.value[i] == 0x7f)

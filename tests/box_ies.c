@@ -25,7 +25,7 @@ bool box_ies_read(arena *a, box_ies *out)
     if (!box_ies_expected(out->direct, out->total))
         return false;
     lux_error err  = { 0 };
-    const study *s = study_read(a, BOX_IES_FOLDER "/study.yaml", NULL, &err);
+    const study *s = study_read(a, BOX_IES_FOLDER "/study.yaml", NULL, NULL, &err);
     out->scene     = s ? scene_new(a, s, 1, NULL, &err) : NULL;
     if (!out->scene)
         fail_msg("%s", err.text);

@@ -48,7 +48,7 @@ const scene *scene_of_text(arena *a, const char *yaml)
     folder_write(folder, "study.yaml", yaml);
     snprintf(path, sizeof path, "%s/study.yaml", folder);
     lux_error err  = { 0 };
-    const study *s = study_read(a, path, NULL, &err);
+    const study *s = study_read(a, path, NULL, NULL, &err);
     if (!s)
         fail_msg("%s", err.text);
     const scene *made = scene_new(a, s, 1, NULL, &err);

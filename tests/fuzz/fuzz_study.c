@@ -12,7 +12,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     arena memory   = { 0 };
     notices n      = { .a = &memory };
     lux_error err  = { 0 };
-    const study *s = study_parse(&memory, "s.yaml", (const char *)bytes, size, &n, &err);
+    const study *s = study_parse(&memory, "s.yaml", NULL, (const char *)bytes, size, &n, &err);
     if (!s && (strncmp(err.text, "s.yaml:", 7) != 0 || strpbrk(err.text, "\n\r\x1b")))
         abort();
     for (int i = 0; s && i < s->grid_count; i++)

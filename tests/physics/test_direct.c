@@ -46,7 +46,7 @@ TEST(a_tilted_sensor_follows_the_cosine)
                  "lux4: 1\nlights: [{type: point, at: [0, 0, 2], lumens: 1256.6370614359172}]\n"
                  "grids: [{name: tilted, points: tilted.csv}]\n");
     snprintf(path, sizeof path, "%s/study.yaml", folder);
-    const study *st = study_read(&a, path, NULL, NULL);
+    const study *st = study_read(&a, path, NULL, NULL, NULL);
     const scene *s  = scene_new(&a, st, 1, NULL, NULL);
     grid_result r;
     grid_of_scene(&a, s, 0, &(run_options){ .seed = 1 }, &r);

@@ -10,7 +10,7 @@ static arena memory;
 static const study *good(const char *text)
 {
     lux_error err  = { 0 };
-    const study *s = study_parse(&memory, "job/office.yaml", text, strlen(text), NULL, &err);
+    const study *s = study_parse(&memory, "job/office.yaml", NULL, text, strlen(text), NULL, &err);
     if (!s)
         fail_msg("%s", err.text);
     return s;
@@ -141,7 +141,7 @@ TEST(a_point_light_has_candelas_or_lumens)
     assert_int_equal(s->light_count, 2);
     assert_string_equal(s->lights[0].name, "bulb");
     assert_true(s->lights[0].intensity == 100.0);
-    assert_near(s->lights[1].intensity, 100.0, 1e-15); /* lumens / 4 pi */
+    assert_true(s->lights[1].lumens == 1256.6370614359172 && isnan(s->lights[1].intensity));
     assert_int_equal(s->lights[1].at_count, 2);
     assert_rgb(s->lights[1].emission.color, 1.0 / 0.2126, 0, 0);
     assert_true(s->lights[1].emission.dimming == 2.0);
@@ -177,17 +177,17 @@ TEST(a_grid_is_a_plane_a_file_or_over_the_room)
     assert_place(g->origin, 0.5, 0.5, 0.75);
     assert_place(g->u, 9, 0, 0);
     assert_place(g->v, 0, 5, 0);
-    assert_true(g->on_room && g->en12464);
-    assert_near(g->spacing, 0.9, 1e-15); /* p(9 m) = 0.928 m, ten cells of 0.9 m */
+    assert_true(g->on == SIDE_ROOM && g->en12464);
+    assert_near(g->spacing, 9.0 / 11.0, 1e-15); /* p(9 m) = 0.928 m: 9.7 cells, so 11 */
     assert_true(g->require_average == 500.0 && g->require_minimum == 300.0);
     assert_near(g->require_uniformity, 0.6, 0);
     study_grid_counts(g, &along_u, &along_v);
-    assert_true(along_u == 10.0 && along_v == 6.0); /* 5 m / 0.9 m = 5.6 */
+    assert_true(along_u == 11.0 && along_v == 7.0); /* 5 m / 0.818 m = 6.1 */
 
     g++;
     assert_place(g->origin, 0, 0, 0.75);
     assert_place(g->v, 0, 6, 0);
-    assert_true(g->spacing == 0.5 && !g->on_room && !g->points && isnan(g->require_average));
+    assert_true(g->spacing == 0.5 && !g->on && !g->points && isnan(g->require_average));
     study_grid_counts(g, &along_u, &along_v);
     assert_true(along_u == 20.0 && along_v == 12.0);
 
@@ -258,7 +258,7 @@ TEST(paths_start_at_the_folder_of_the_study)
                                             { "./c.yaml", ".", "./x.glb" } };
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
         static const char text[] = "{lux4: 1, scene: x.glb}";
-        const study *s = study_parse(&memory, table[i][0], text, strlen(text), NULL, NULL);
+        const study *s = study_parse(&memory, table[i][0], NULL, text, strlen(text), NULL, NULL);
         assert_string_equal(s->folder, table[i][1]);
         assert_string_equal(s->scenes[0].file, table[i][2]);
     }
@@ -272,21 +272,37 @@ TEST(spacings_are_those_of_en_12464_1)
                                        { 2, 0.3, 6 },    { 5, 0.6, 8 },   { 10, 1, 10 },
                                        { 25, 2, 12 },    { 50, 3, 17 },   { 100, 5, 20 } };
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
-        double side    = table[i][0];
-        double spacing = study_spacing_en12464(side, side);
-        double cells   = side / spacing;
+        double side    = table[i][0], cells, other;
+        double spacing = study_counts_en12464(side, side, &cells, &other);
         assert_true(spacing <= table[i][1] * (1 + 1e-9));
-        assert_true(cells >= table[i][2] - 1e-9);
-        assert_near(cells, round(cells), 1e-12);
-        assert_true(side / (cells - 1) > 0.2 * pow(5.0, log10(side))); /* no cell too many */
+        assert_true(cells >= table[i][2] && fmod(cells, 2.0) == 1.0);
+        assert_true(other == cells);
+        assert_near(spacing, side / cells, 1e-15);
+        assert_true(side / (cells - 2) > 0.2 * pow(5.0, log10(side))); /* no two too many */
     }
-    assert_near(study_spacing_en12464(10, 10), 1.0, 1e-15);
-    assert_near(study_spacing_en12464(10 + 1e-12, 10), 1.0, 1e-12); /* 11 - 2 * 0.5, rounded */
-    assert_near(study_spacing_en12464(10, 5.1), 1.0, 1e-15);
-    assert_near(study_spacing_en12464(5.1, 10), 1.0, 1e-15);
-    assert_near(study_spacing_en12464(20, 10), 1.0, 1e-15); /* twice as long: the shorter side */
-    assert_near(study_spacing_en12464(10, 1000), 1.0, 1e-15);
-    assert_near(study_spacing_en12464(1000, 1000), 10.0, 1e-15); /* 25 m by the formula */
+}
+
+static void assert_counts(double side, double other, double along_side, double along_other)
+{
+    double a, b;
+    study_counts_en12464(side, other, &a, &b);
+    if (a != along_side || b != along_other)
+        fail_msg("%g by %g m: %g by %g", side, other, a, b);
+}
+
+TEST(counts_by_en_12464_1_are_odd_on_both_sides)
+{
+    assert_counts(10, 10, 11, 11);         /* p = 1 m: 10, made odd */
+    assert_counts(10 + 1e-12, 10, 11, 11); /* 11 - 2 * 0.5, rounded */
+    assert_counts(1, 1, 5, 5);             /* p = 0.2 m: 5, whatever pow() rounds to */
+    assert_counts(10, 5.1, 11, 5);         /* 5.1 / (10 / 11) = 5.61: 5 is nearer than 7 */
+    assert_counts(10, 5.6, 11, 7);         /* 6.16: 7 is */
+    assert_counts(5.1, 10, 5, 11);
+    assert_counts(20, 10, 23,
+                  11); /* twice as long: d is the shorter side; 22, of the two the more */
+    assert_counts(10, 100, 11, 111);     /* 110, likewise */
+    assert_counts(100, 100, 21, 21);     /* p = 5 m */
+    assert_counts(1000, 1000, 101, 101); /* 25 m by the formula, 10 m at most */
 }
 
 TEST(patterns_match_whole_names)
@@ -344,6 +360,7 @@ int main(void)
                                   forget),
         cmocka_unit_test_teardown(paths_start_at_the_folder_of_the_study, forget),
         cmocka_unit_test(spacings_are_those_of_en_12464_1),
+        cmocka_unit_test(counts_by_en_12464_1_are_odd_on_both_sides),
         cmocka_unit_test(patterns_match_whole_names),
         cmocka_unit_test(a_hostile_pattern_costs_no_more_than_its_length_times_the_name),
         cmocka_unit_test_teardown(later_stages_can_point_into_the_study, forget),

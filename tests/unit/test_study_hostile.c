@@ -27,10 +27,11 @@ static const char whole[] =
 /* Reads; if it is refused, the message must be one line that names the file. */
 static bool survives(const char *text, size_t size)
 {
-    arena memory   = { 0 };
-    lux_error err  = { 0 };
-    char *exact    = malloc(size ? size : 1); /* so that the sanitizer sees a byte too far */
-    const study *s = study_parse(&memory, "s.yaml", memcpy(exact, text, size), size, NULL, &err);
+    arena memory  = { 0 };
+    lux_error err = { 0 };
+    char *exact   = malloc(size ? size : 1); /* so that the sanitizer sees a byte too far */
+    const study *s =
+        study_parse(&memory, "s.yaml", NULL, memcpy(exact, text, size), size, NULL, &err);
     if (!s && (strncmp(err.text, "s.yaml:", 7) != 0 || strpbrk(err.text, "\n\r\x1b")))
         fail_msg("no good message: %s", err.text);
     free(exact);
@@ -43,7 +44,7 @@ static void assert_says(const char *text, size_t size, const char *says)
     arena memory  = { 0 };
     lux_error err = { 0 };
     clock_t began = clock();
-    assert_null(study_parse(&memory, "s.yaml", text, size, NULL, &err));
+    assert_null(study_parse(&memory, "s.yaml", NULL, text, size, NULL, &err));
     double seconds = (double)(clock() - began) / CLOCKS_PER_SEC;
     assert_string_equal(err.text, says);
     if (seconds > 1.0) /* a few ms; libyaml by itself took 36 s for some */
@@ -205,8 +206,8 @@ TEST(messages_show_no_control_characters_and_half_no_character)
     static const char escape[] = "lux4: 1\n\"\\e[31m\\n\": 2";
     assert_says(escape, strlen(escape),
                 "s.yaml:2:1: unknown key the text `?[31m?`: a study has lux4, room, scene, site, "
-                "when, sky, maintenance, luminaires, lights, materials, grids, views, accuracy, "
-                "variants");
+                "when, sky, maintenance, luminaires, lights, dimming, materials, grids, views, "
+                "accuracy, variants");
     char *text = repeated("lux4: x", "\xc3\xa9", 6 + 1 + 200);
     assert_says(text, strlen(text),
                 "s.yaml:1:7: expected a number, found "
@@ -220,13 +221,13 @@ TEST(files_that_cannot_be_read_are_errors)
 {
     arena memory  = { 0 };
     lux_error err = { 0 };
-    assert_null(study_read(&memory, "tests", NULL, &err));
+    assert_null(study_read(&memory, "tests", NULL, NULL, &err));
     assert_int_equal(err.code, ERR_IO);
     assert_non_null(strstr(err.text, "tests: "));
-    assert_null(study_read(&memory, "tests/no-such.yaml", NULL, &err));
+    assert_null(study_read(&memory, "tests/no-such.yaml", NULL, NULL, &err));
     assert_int_equal(err.code, ERR_IO);
     assert_non_null(strstr(err.text, "tests/no-such.yaml: "));
-    assert_null(study_read(&memory, "tests/run", NULL, &err)); /* a file, but no study */
+    assert_null(study_read(&memory, "tests/run", NULL, NULL, &err)); /* a file, but no study */
     assert_int_equal(err.code, ERR_FORMAT);
     assert_non_null(strstr(err.text, "tests/run:"));
     arena_clear(&memory);
@@ -237,7 +238,7 @@ TEST(no_memory_is_an_error)
     arena memory   = { 0 };
     lux_error err  = { 0 };
     memory_is_out  = true;
-    const study *s = study_parse(&memory, "s.yaml", whole, strlen(whole), NULL, &err);
+    const study *s = study_parse(&memory, "s.yaml", NULL, whole, strlen(whole), NULL, &err);
     memory_is_out  = false;
     assert_null(s);
     assert_int_equal(err.code, ERR_MEMORY);

@@ -13,7 +13,7 @@ static void assert_refused(const char *text, error_code code, const char *says)
 {
     arena memory   = { 0 };
     lux_error err  = { 0 };
-    const study *s = study_parse(&memory, "s.yaml", text, strlen(text), NULL, &err);
+    const study *s = study_parse(&memory, "s.yaml", NULL, text, strlen(text), NULL, &err);
     if (s)
         fail_msg("read without an error, not \"%s\":\n%s", says, text);
     if (strncmp(err.text, "s.yaml:", 7) != 0 || strcmp(err.text + 7, says) != 0)

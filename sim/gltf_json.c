@@ -296,6 +296,8 @@ static bool walk_member(walker *w, const json_rule *owner, uint32_t *present)
     const json_rule *rule = owner->kind == JSON_MAP ? &index : &any;
     int number            = find_rule(owner->inside, key, length);
     size_t before         = enter(w, key, length);
+    if (owner->inside && memchr(key, '\\', length)) /* no rule finds it, but a library would */
+        return wrong(w, "a key with a backslash", "one without");
     if (number >= 0) {
         rule = &owner->inside[number];
         if (*present >> number & 1)

@@ -286,6 +286,16 @@ TEST(an_error_names_the_pointer_and_what_is_wrong)
     assert_change_refused("0,0,0,1],\"cam", "0,0,0,2],\"cam", "/nodes/0/matrix: the last row is");
 }
 
+/* Once a key like "mesh\u0065s" passed every rule, and the library read it: a crash. */
+TEST(a_key_does_not_hide_behind_an_escape)
+{
+    assert_text_refused("{" ASSET ",\"m\\u0065shes\":[{\"primitives\":[{\"attributes\":"
+                        "{\"POSITION\":0}}]}]}",
+                        "/m\\u0065shes: a key with a backslash");
+    static const char extras[] = "{" ASSET ",\"extras\":{\"caf\\u00e9\":1}}";
+    assert_true(survives(extras, strlen(extras)));
+}
+
 TEST(a_graph_with_cycles_or_two_parents_is_refused)
 {
     assert_text_refused("{" ASSET
@@ -518,6 +528,7 @@ int main(void)
         HOSTILE(any_value_may_be_anything),
         HOSTILE(a_byte_changed_anywhere_is_survived),
         HOSTILE(an_error_names_the_pointer_and_what_is_wrong),
+        HOSTILE(a_key_does_not_hide_behind_an_escape),
         HOSTILE(a_graph_with_cycles_or_two_parents_is_refused),
         HOSTILE(deep_json_is_refused_before_anybody_walks_into_it),
         HOSTILE(a_deep_hierarchy_is_walked_without_a_stack),

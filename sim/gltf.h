@@ -41,6 +41,7 @@ typedef struct gltf_placement {
 typedef struct gltf_node {
     const char *name; /* as in the file; "" if it has none */
     transform place;
+    int32_t parent; /* an index of gltf.nodes; -1: a root of the scene */
 } gltf_node;
 
 typedef struct gltf_camera {
@@ -116,6 +117,10 @@ typedef struct gltf {
  * for nodes and point lights, not 0. Triangles of a place that mirrors run the other way round.
  * Positions are finite, each placed one may still be too large for a float. */
 const gltf *gltf_read(arena *a, const char *path, notices *n, lux_error *err);
+
+/* Whether a node, by its index in g->nodes, is the ancestor, by its own, or hangs below it: so
+ * many steps as it is deep. */
+bool gltf_node_below(const gltf *g, uint32_t node, uint32_t ancestor);
 
 #ifdef __cplusplus
 }

@@ -352,6 +352,7 @@ static bool add_parts(node_work *w, lux_error *err)
         gltf_node *to = &out->nodes[w->number[i]];
         to->name      = read_name(w->r, w->r->source->nodes[i].name, err);
         to->place     = w->place[i];
+        to->parent    = w->parent[i] < 0 ? -1 : (int32_t)w->number[w->parent[i]];
         if (!to->name || !add_mesh(w, i, err) || !add_camera(w, i, err) ||
             !node_lights_add(w->r, i, w->number[i], &w->place[i], err))
             return false;

@@ -1,4 +1,4 @@
-/* tests/unit/test_gltf_lights.c -- measured and glowing lights of glTF.
+/* tests/unit/test_gltf_lights.c -- measured and glowing lights of glTF, and whose nodes are whose.
  *
  * Expected values are worked out by hand from the READMEs of the extensions; (x, y, z) of glTF is
  * (x, -z, y) of ours.
@@ -356,7 +356,7 @@ TEST(what_has_no_direction_gives_no_light)
     assert_true(noticed(&said, "/nodes/0: 2 parts are left out"));
 }
 
-/* ---- emission, real files ---- */
+/* ---- emission, ownership, real files ---- */
 
 /* One pixel, 8-bit RGB (188, 0, 255), as PNG. Linear by IEC 61966-2-1: 0.50289, 0, 1. */
 static const char pixel[] =
@@ -376,6 +376,29 @@ TEST(emission_is_factor_times_texture_times_strength)
     assert_near(g->materials[0].emission.x, 4000 * 0.50289, 0.1); /* 5 digits of 0.50289 */
     assert_near(g->materials[0].emission.y, 0, 0);
     assert_near(g->materials[0].emission.z, 1000, 1e-3);
+}
+
+/*  The scene shows node 3:   3        in the result,   2
+ *                           / \       without 0:      / \
+ *                          1   5                     0   4
+ *                          |   |                     |   |
+ *                          4   2                     3   1    */
+TEST(a_node_knows_its_parent_and_all_above_it)
+{
+    const gltf *g = read_text("{" ASSET ",\"scenes\":[{\"nodes\":[3]}],\"nodes\":[{},{\"children\":"
+                              "[4]},{\"name\":\"Spot.\\u00e9\"},{\"children\":[1,5]},{},{"
+                              "\"children\":[2]}]}");
+    static const int parent[5]    = { 2, 4, -1, 0, 2 };
+    static const char below[5][6] = { "10010", "01000", "11111", "00010", "01001" };
+    assert_non_null(g);
+    assert_int_equal(g->node_count, 5);
+    for (uint32_t i = 0; i < 5; i++) {
+        assert_int_equal(g->nodes[i].parent, parent[i]);
+        for (uint32_t k = 0; k < 5; k++)
+            assert_int_equal(gltf_node_below(g, k, i), below[i][k] == '1');
+    }
+    assert_string_equal(g->nodes[1].name, "Spot.\xc3\xa9");
+    assert_string_equal(g->nodes[0].name, "");
 }
 
 TEST(the_same_web_beside_and_within_the_scene_is_the_same)
@@ -431,6 +454,7 @@ int main(void)
         LIGHT_TEST(a_node_may_carry_a_light_of_each_extension),
         LIGHT_TEST(what_has_no_direction_gives_no_light),
         LIGHT_TEST(emission_is_factor_times_texture_times_strength),
+        LIGHT_TEST(a_node_knows_its_parent_and_all_above_it),
         LIGHT_TEST(the_same_web_beside_and_within_the_scene_is_the_same),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,7 @@
 /* sim/gltf.c -- see gltf.h. The steps in order; extensions; what the user is told. */
 #include "sim/gltf_source.h"
 
+#include <assert.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -19,6 +20,7 @@ static const char *const sentences[TALLY_KINDS] = {
     [TALLY_COLOR]       = "primitives have vertex colours (COLOR_0), which are ignored",
     [TALLY_MORPH]       = "primitives have morph targets, which are ignored",
     [TALLY_SKIN]        = "nodes have a skin, which is ignored: they are in the rest pose",
+    [TALLY_TINT]        = "colours of EXT_lights_ies go beyond 1: cut off there",
 };
 
 void tally_add(reader *r, tally_kind kind, const char *pointer, ...)
@@ -43,14 +45,6 @@ static void tell_tallies(const reader *r)
     if (r->file->animation_count)
         notice_add(r->notices, "%s: /animations: %u animations are ignored: the rest pose is read",
                    r->file->path, r->file->animation_count);
-    if (r->source->ies_count)
-        notice_add(r->notices,
-                   "%s: EXT_lights_ies is not supported yet: its %u lights are left out",
-                   r->file->path, r->source->ies_count);
-    if (r->source->area_count)
-        notice_add(r->notices,
-                   "%s: EXT_lights_area is not supported yet: its %u lights are left out",
-                   r->file->path, r->source->area_count);
 }
 
 /* ---- extensions ---- */
@@ -59,6 +53,8 @@ static void tell_tallies(const reader *r)
 static const char *const simulated[] = {
     "KHR_mesh_quantization",
     "KHR_lights_punctual",
+    "EXT_lights_ies",
+    "EXT_lights_area",
     "EXT_mesh_gpu_instancing",
     "KHR_materials_emissive_strength",
     "KHR_materials_transmission",
@@ -113,8 +109,7 @@ static bool check_extensions(const reader *r, lux_error *err)
     for (uint32_t i = 0; i < s->used_count; i++) {
         const char *name = s->used[i];
         size_t length    = strlen(names);
-        if (!listed(simulated, name) && strncmp(name, "EXT_lights_ies", 15) != 0 &&
-            strncmp(name, "EXT_lights_area", 16) != 0 && length < sizeof names - 1)
+        if (!listed(simulated, name) && length < sizeof names - 1)
             snprintf(names + length, sizeof names - length, "%s%s", length ? ", " : "", name);
     }
     if (*names)
@@ -150,22 +145,6 @@ static bool check_cameras(const reader *r, lux_error *err)
     return true;
 }
 
-static bool check_lights(reader *r, lux_error *err)
-{
-    for (uint32_t i = 0; i < r->source->light_count; i++) {
-        const source_light *l  = &r->source->lights[i];
-        static const char at[] = "/extensions/KHR_lights_punctual/lights";
-        if (!strcmp(l->type, "spot") && !(l->inner < l->outer))
-            return failed(err, ERR_FORMAT,
-                          "%s: %s/%u/spot: innerConeAngle %g, wanted less than "
-                          "outerConeAngle %g",
-                          r->file->path, at, i, l->inner, l->outer);
-        if (l->ranged)
-            tally_add(r, TALLY_RANGE, "%s/%u", at, i);
-    }
-    return true;
-}
-
 const char *read_name(const reader *r, const char *name, lux_error *err)
 {
     size_t length = strlen(name);
@@ -179,8 +158,17 @@ static bool read_all(reader *r, gltf_file *f, source *s, const char *path, lux_e
 {
     return gltf_file_open(f, path, err) && gltf_file_check(f, err) && source_open(s, f, err) &&
            check_version(r, err) && check_extensions(r, err) && gltf_file_buffers(f, err) &&
-           accessors_check(r, err) && check_cameras(r, err) && check_lights(r, err) &&
+           accessors_check(r, err) && check_cameras(r, err) && read_lights(r, err) &&
            read_materials(r, err) && read_meshes(r, err) && read_nodes(r, err);
+}
+
+bool gltf_node_below(const gltf *g, uint32_t node, uint32_t ancestor)
+{
+    assert(node < g->node_count);
+    int64_t at = node;
+    while (at >= 0 && at != ancestor)
+        at = g->nodes[at].parent;
+    return at >= 0;
 }
 
 const gltf *gltf_read(arena *a, const char *path, notices *n, lux_error *err)

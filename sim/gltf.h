@@ -39,8 +39,9 @@ typedef struct gltf_placement {
 } gltf_placement;
 
 typedef struct gltf_node {
-    const char *name;
+    const char *name; /* as in the file; "" if it has none */
     transform place;
+    int32_t parent; /* an index of gltf.nodes; -1: a root of the scene */
 } gltf_node;
 
 typedef struct gltf_camera {
@@ -51,15 +52,48 @@ typedef struct gltf_camera {
     double xmag, ymag;   /* m, half width and height if orthographic */
 } gltf_camera;
 
-typedef enum gltf_light_kind { GLTF_POINT, GLTF_SPOT, GLTF_DIRECTIONAL } gltf_light_kind;
+typedef enum gltf_light_kind {
+    GLTF_POINT,
+    GLTF_SPOT,
+    GLTF_DIRECTIONAL, /* so far KHR_lights_punctual */
+    GLTF_IES,         /* EXT_lights_ies */
+    GLTF_AREA_RECT,
+    GLTF_AREA_DISK, /* EXT_lights_area */
+} gltf_light_kind;
 
+/* A light at a node, which may have one of each extension. What a kind has not is 0.
+ *
+ * A web (GLTF_IES) hangs at its place as the extension says: (0, 0) is -z, x/y is the horizontal
+ * photometric plane and x/z the vertical one. So gamma = 0 lies along place (0, 0, -1), C0 along
+ * place (1, 0, 0) and, C planes being counter-clockwise for who looks along gamma = 0 from behind
+ * the luminaire, C90 along place (0, 1, 0). Only directions count: scale changes nothing, and a
+ * place that mirrors turns no web inside out (gamma and C0 are where they are said to be, C90
+ * follows from them).
+ *
+ * Its file stands beside the scene (path) or within it (bytes, followed by a NUL that the size does
+ * not count): one of them is not NULL. Lights of one profile have equal pointers. The file beside
+ * the scene has not been opened: it lies in the scene's folder, or is missing.
+ *
+ * An area has its centre at the origin of its place, lies in x/y with the height along y, and
+ * shines from one side, to -z, the same in all directions (Lambert). The node's scale is in its
+ * size, not to be applied again. */
 typedef struct gltf_light {
     const char *name; /* the light's, or else its node's */
     gltf_light_kind kind;
-    transform place;     /* shines along -z */
-    vec3 color;          /* linear, >= 0 */
-    double intensity;    /* cd; lux if directional */
-    double inner, outer; /* rad */
+    uint32_t node;       /* an index of gltf.nodes */
+    transform place;     /* of the node: shines along -z */
+    vec3 color;          /* linear, >= 0; [0, 1] if it tints a web */
+    double intensity;    /* cd; lux if directional; cd/m^2 of an area, where color is 1 */
+    double inner, outer; /* rad, of a spot */
+
+    const char *photometry_path;  /* to open, or NULL */
+    const char *photometry_bytes; /* or NULL */
+    size_t photometry_size;
+    const char *photometry_name; /* for messages: scene's path and JSON pointer */
+    double multiplier;           /* of the web's candelas, >= 0 */
+
+    double width, height; /* m, > 0, of a rectangle: along x, along y */
+    double radius;        /* m, > 0, of a disk */
 } gltf_light;
 
 typedef struct gltf {
@@ -69,7 +103,7 @@ typedef struct gltf {
     gltf_placement *placements;
     gltf_node *nodes; /* those of the scene */
     gltf_camera *cameras;
-    gltf_light *lights;      /* KHR_lights_punctual */
+    gltf_light *lights;
     uint64_t texture_count;  /* textures of materials that were taken as their mean */
     uint64_t flat_triangles; /* left out, without area */
 } gltf;
@@ -83,6 +117,10 @@ typedef struct gltf {
  * for nodes and point lights, not 0. Triangles of a place that mirrors run the other way round.
  * Positions are finite, each placed one may still be too large for a float. */
 const gltf *gltf_read(arena *a, const char *path, notices *n, lux_error *err);
+
+/* Whether a node, by its index in g->nodes, is the ancestor, by its own, or hangs below it: so
+ * many steps as it is deep. */
+bool gltf_node_below(const gltf *g, uint32_t node, uint32_t ancestor);
 
 #ifdef __cplusplus
 }

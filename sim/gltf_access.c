@@ -44,7 +44,7 @@ bool index_valid(const reader *r, source_index i, uint32_t count, const char *wh
     return failed(err, ERR_FORMAT, "%s: %s: %s %d of %u", r->file->path, place, what, i, count);
 }
 
-bool view_has_bytes(const reader *r, source_index view, const char *pointer, lux_error *err)
+static bool view_has_bytes(const reader *r, source_index view, const char *pointer, lux_error *err)
 {
     source_index buffer = r->source->views[view].buffer;
     return r->file->buffers[buffer].bytes ||
@@ -219,6 +219,19 @@ static size_t sparse_target(const reader *r, source_index accessor, size_t k, si
            "ones below %zu",
            r->file->path, accessor, k, i, a->count);
     return SIZE_MAX;
+}
+
+bool content_locate(const reader *r, const source_content *c, const char *pointer,
+                    const uint8_t **bytes, size_t *size, const char **path, lux_error *err)
+{
+    if (c->uri)
+        return gltf_file_locate(r->file, pointer, c->uri, c->uri_length, bytes, size, path, err);
+    if (!index_valid(r, c->view, r->source->view_count, "bufferView", err, "%s", pointer) ||
+        !view_has_bytes(r, c->view, pointer, err))
+        return false;
+    *bytes = view_bytes(r, c->view, 0);
+    *size  = r->source->views[c->view].length;
+    return true;
 }
 
 /* Each element's bytes, base or sparse, one call. */

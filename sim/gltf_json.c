@@ -296,6 +296,8 @@ static bool walk_member(walker *w, const json_rule *owner, uint32_t *present)
     const json_rule *rule = owner->kind == JSON_MAP ? &index : &any;
     int number            = find_rule(owner->inside, key, length);
     size_t before         = enter(w, key, length);
+    if (owner->inside && memchr(key, '\\', length)) /* no rule finds it, but a library would */
+        return wrong(w, "a key with a backslash", "one without");
     if (number >= 0) {
         rule = &owner->inside[number];
         if (*present >> number & 1)
@@ -308,6 +310,29 @@ static bool walk_member(walker *w, const json_rule *owner, uint32_t *present)
     if (rule->hide)
         *key = '_';
     return true;
+}
+
+/* Whether the members that must be there are: bit i of `present` stands for rule i. */
+static bool all_present(walker *w, const json_rule *rules, uint32_t present)
+{
+    const json_rule *either[2] = { NULL, NULL }; /* the first and the last of those */
+    bool chosen                = false;
+    char found[64];
+    for (int i = 0; rules && rules[i].key && i < RULES_MOST; i++) {
+        bool here = present >> i & 1;
+        if (rules[i].required && !here) {
+            snprintf(found, sizeof found, "no \"%s\"", rules[i].key);
+            return wrong(w, found, kind_wanted(rules[i].kind));
+        }
+        if (rules[i].either) {
+            either[either[0] != NULL] = &rules[i];
+            chosen |= here;
+        }
+    }
+    if (!either[0] || chosen)
+        return true;
+    snprintf(found, sizeof found, "neither \"%s\" nor \"%s\"", either[0]->key, either[1]->key);
+    return wrong(w, found, "one of them");
 }
 
 static bool walk_object(walker *w, const json_rule *rule)
@@ -329,13 +354,7 @@ static bool walk_object(walker *w, const json_rule *rule)
         if (!took(w, '}'))
             return syntax_error(w, "',' or '}'");
     }
-    for (int i = 0; owner->inside && owner->inside[i].key && i < RULES_MOST; i++)
-        if (owner->inside[i].required && !(present >> i & 1)) {
-            char found[64];
-            snprintf(found, sizeof found, "no \"%s\"", owner->inside[i].key);
-            return wrong(w, found, kind_wanted(owner->inside[i].kind));
-        }
-    return true;
+    return all_present(w, owner->inside, present);
 }
 
 /* Whether "a|b|c" has the text among its words. */

@@ -39,8 +39,9 @@ typedef struct json_rule {
     int multiple_of;                /* of JSON_SIZE; 0: any */
     double low, high;               /* of numbers, both included; low = high = 0: any */
     bool required;
-    bool hide; /* the key, its value checked, is overwritten: nobody else finds it */
-    int note;  /* not 0: each such value (each element of JSON_OBJECTS) is told to `seen` */
+    bool either; /* of the two that have this, one must be there at least */
+    bool hide;   /* the key, its value checked, is overwritten: nobody else finds it */
+    int note;    /* not 0: each such value (each element of JSON_OBJECTS) is told to `seen` */
 } json_rule;
 
 typedef struct json_check {

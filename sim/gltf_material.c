@@ -18,25 +18,15 @@ typedef struct picture_work {
 
 static bool picture_mean(const picture_work *w, uint32_t number, bool srgb, lux_error *err)
 {
-    const reader *r       = w->r;
-    const gltf_file *f    = r->file;
-    const source_image *i = &f->images[number];
-    const uint8_t *bytes  = NULL;
-    size_t size           = 0;
-    const char *path      = NULL;
+    const gltf_file *f      = w->r->file;
+    const source_content *i = &f->images[number];
+    const uint8_t *bytes    = NULL;
+    size_t size             = 0;
+    const char *path        = NULL;
     char pointer[48], label[560];
     snprintf(pointer, sizeof pointer, "/images/%u%s", number, i->uri ? "/uri" : "/bufferView");
-    if (i->uri) {
-        if (!gltf_file_locate(f, pointer, i->uri, i->uri_length, &bytes, &size, &path, err))
-            return false;
-    } else {
-        if (!index_valid(r, i->view, r->source->view_count, "bufferView", err, "%s", pointer) ||
-            !view_has_bytes(r, i->view, pointer, err))
-            return false;
-        const source_view *v = &r->source->views[i->view];
-        bytes                = f->buffers[v->buffer].bytes + v->offset;
-        size                 = v->length;
-    }
+    if (!content_locate(w->r, i, pointer, &bytes, &size, &path, err))
+        return false;
 
     lux_error why = { 0 };
     snprintf(label, sizeof label, "%s: %s", f->path, pointer);

@@ -1,4 +1,4 @@
-/* sim/gltf_node.c -- the tree of nodes laid flat: places of meshes, cameras and lights.
+/* sim/gltf_node.c -- the tree of nodes laid flat: places of meshes and cameras.
  *
  * Nothing here recurses: parents come before children in one list, however deep the tree. The
  * place of a node is  turn_up * parent's matrix * ... * its own  in double precision, where turn_up
@@ -183,16 +183,15 @@ static bool find_places(node_work *w, lux_error *err)
 
 static bool check_node(const node_work *w, uint32_t i, lux_error *err)
 {
-    const source *s              = w->r->source;
-    const source_node *n         = &s->nodes[i];
-    static const char light_at[] = "/nodes/%u/extensions/KHR_lights_punctual/light";
+    const source *s      = w->r->source;
+    const source_node *n = &s->nodes[i];
     return (n->mesh < 0 ||
             index_valid(w->r, n->mesh, s->mesh_count, "mesh", err, "/nodes/%u/mesh", i)) &&
            (n->camera < 0 ||
             index_valid(w->r, n->camera, s->camera_count, "camera", err, "/nodes/%u/camera", i)) &&
            (n->skin < 0 ||
             index_valid(w->r, n->skin, w->r->file->skin_count, "skin", err, "/nodes/%u/skin", i)) &&
-           (n->light < 0 || index_valid(w->r, n->light, s->light_count, "light", err, light_at, i));
+           node_lights_valid(w->r, i, err);
 }
 
 /* How many instances EXT_mesh_gpu_instancing makes of a node's mesh; 0, with *err, if its
@@ -240,7 +239,7 @@ static bool count_parts(node_work *w, lux_error *err)
         w->number[i] = w->r->out->node_count++;
         placements += many;
         w->cameras += n->camera >= 0;
-        w->lights += n->light >= 0;
+        w->lights += node_light_count(n);
         if (n->skin >= 0)
             tally_add(w->r, TALLY_SKIN, "/nodes/%u", i);
         if (placements > placements_most)
@@ -337,31 +336,6 @@ static bool add_camera(node_work *w, uint32_t i, lux_error *err)
     return to->name != NULL;
 }
 
-static bool add_light(node_work *w, uint32_t i, lux_error *err)
-{
-    const source_node *n = &w->r->source->nodes[i];
-    if (n->light < 0)
-        return true;
-    const source_light *l = &w->r->source->lights[n->light];
-    gltf_light_kind kind  = !strcmp(l->type, "point")  ? GLTF_POINT
-                            : !strcmp(l->type, "spot") ? GLTF_SPOT
-                                                       : GLTF_DIRECTIONAL;
-    if (kind != GLTF_POINT && transform_determinant(&w->place[i]) == 0) {
-        tally_add(w->r, TALLY_SINGULAR, "/nodes/%u", i);
-        return true;
-    }
-    vec3 color     = { (float)l->color[0], (float)l->color[1], (float)l->color[2] };
-    gltf_light *to = &w->r->out->lights[w->r->out->light_count++];
-    *to            = (gltf_light){ .kind      = kind,
-                                   .place     = w->place[i],
-                                   .color     = color,
-                                   .intensity = l->intensity,
-                                   .inner     = l->inner,
-                                   .outer     = l->outer };
-    to->name       = read_name(w->r, *l->name ? l->name : n->name, err);
-    return to->name != NULL;
-}
-
 static bool add_parts(node_work *w, lux_error *err)
 {
     gltf *out       = w->r->out;
@@ -378,7 +352,9 @@ static bool add_parts(node_work *w, lux_error *err)
         gltf_node *to = &out->nodes[w->number[i]];
         to->name      = read_name(w->r, w->r->source->nodes[i].name, err);
         to->place     = w->place[i];
-        if (!to->name || !add_mesh(w, i, err) || !add_camera(w, i, err) || !add_light(w, i, err))
+        to->parent    = w->parent[i] < 0 ? -1 : (int32_t)w->number[w->parent[i]];
+        if (!to->name || !add_mesh(w, i, err) || !add_camera(w, i, err) ||
+            !node_lights_add(w->r, i, w->number[i], &w->place[i], err))
             return false;
     }
     return true;

@@ -16,6 +16,9 @@ enum {
     NOTE_IMAGE,
     NOTE_IMAGE_URI,
     NOTE_IMAGE_VIEW,
+    NOTE_PROFILE,
+    NOTE_PROFILE_URI,
+    NOTE_PROFILE_VIEW,
     NOTE_PRIMITIVE,
     NOTE_INDICES,
     NOTE_ANIMATION,
@@ -23,10 +26,15 @@ enum {
 };
 
 #define MUST       .required = true
+#define EITHER     .either = true
 #define OF_3       .length = 3
 #define AT_LEAST_0 .low = 0, .high = DBL_MAX
 #define UP_TO_1    .low = 0, .high = 1
 #define ABOVE_0    .low = DBL_MIN, .high = DBL_MAX
+/* Of whole numbers within extensions the library keeps 32 bits: the sun has 1.6e9 cd/m^2 */
+#define UP_TO_INT   .low = 0, .high = 2e9
+#define ABOVE_0_INT .low = DBL_MIN, .high = 2e9
+#define COLOR       OF_3, .low = 0, .high = 1e6
 /* clang-format off */
 #define OBJECT(name, rules)  { name, JSON_OBJECT, rules }
 #define OBJECTS(name, rules) { name, JSON_OBJECTS, rules }
@@ -111,7 +119,7 @@ static const json_rule surface[]      = { { "baseColorFactor", JSON_NUMBERS, .le
                                           { "roughnessFactor", JSON_NUMBER, UP_TO_1 },
                                           OBJECT("metallicRoughnessTexture", texture_info),
                                           END };
-static const json_rule strength[]     = { { "emissiveStrength", JSON_NUMBER, AT_LEAST_0 }, END };
+static const json_rule strength[]     = { { "emissiveStrength", JSON_NUMBER, UP_TO_INT }, END };
 static const json_rule transmission[] = { { "transmissionFactor", JSON_NUMBER, UP_TO_1 },
                                           OBJECT("transmissionTexture", texture_info),
                                           END };
@@ -132,8 +140,14 @@ static const json_rule material[]     = { NAME,
 /* ---- nodes, cameras, lights ---- */
 
 static const json_rule node_light[] = { { "light", JSON_INDEX, MUST }, END };
+static const json_rule node_ies[]   = { { "light", JSON_INDEX, MUST },
+                                        { "multiplier", JSON_NUMBER, UP_TO_INT },
+                                        { "color", JSON_NUMBERS, COLOR },
+                                        END };
 static const json_rule instancing[] = { { "attributes", JSON_MAP, MUST }, END };
 static const json_rule node_ext[]   = { OBJECT("KHR_lights_punctual", node_light),
+                                        OBJECT("EXT_lights_ies", node_ies),
+                                        OBJECT("EXT_lights_area", node_light),
                                         OBJECT("EXT_mesh_gpu_instancing", instancing), END };
 static const json_rule node[]       = { NAME,
                                         INDEX("mesh"),
@@ -172,13 +186,42 @@ static const json_rule spot[]   = { { "innerConeAngle", JSON_NUMBER, .low = 0, .
                                     END };
 static const json_rule light[]  = { NAME,
                                     { "type", JSON_TEXT, MUST, .among = "point|spot|directional" },
-                                    { "color", JSON_NUMBERS, OF_3, .low = 0, .high = 1e6 },
+                                    { "color", JSON_NUMBERS, COLOR },
                                     { "intensity", JSON_NUMBER, AT_LEAST_0 },
                                     { "range", JSON_NUMBER, ABOVE_0 },
                                     OBJECT("spot", spot),
                                     END };
 static const json_rule lights[] = { { "lights", JSON_OBJECTS, light, MUST }, END };
-static const json_rule extension[] = { OBJECT("KHR_lights_punctual", lights), END };
+
+static const json_rule profile[]  = { NAME,
+                                      { "uri", JSON_TEXT, EITHER, .note = NOTE_PROFILE_URI },
+                                      { "bufferView", JSON_INDEX, EITHER,
+                                        .note = NOTE_PROFILE_VIEW },
+                                      { "mimeType", JSON_TEXT, .among = "application/x-ies-lm-63" },
+                                      END };
+static const json_rule profiles[] = {
+    { "lights", JSON_OBJECTS, profile, MUST, .note = NOTE_PROFILE }, END
+};
+
+/* Both drafts: type, intensity, size, rect; shape, luminance, width, height, radius. */
+static const json_rule area_rect[] = { { "aspect", JSON_NUMBER, ABOVE_0_INT }, END };
+static const json_rule area[]      = { NAME,
+                                       { "type", JSON_TEXT, EITHER, .among = "rect|disk" },
+                                       { "shape", JSON_TEXT, EITHER, .among = "rect|disk" },
+                                       { "color", JSON_NUMBERS, COLOR },
+                                       { "intensity", JSON_NUMBER, UP_TO_INT },
+                                       { "luminance", JSON_NUMBER, UP_TO_INT },
+                                       { "size", JSON_NUMBER, ABOVE_0_INT },
+                                       { "width", JSON_NUMBER, ABOVE_0_INT },
+                                       { "height", JSON_NUMBER, ABOVE_0_INT },
+                                       { "radius", JSON_NUMBER, ABOVE_0_INT },
+                                       OBJECT("rect", area_rect),
+                                       END };
+static const json_rule areas[]     = { { "lights", JSON_OBJECTS, area, MUST }, END };
+
+static const json_rule extension[] = { OBJECT("KHR_lights_punctual", lights),
+                                       OBJECT("EXT_lights_ies", profiles),
+                                       OBJECT("EXT_lights_area", areas), END };
 
 /* ---- the whole ---- */
 
@@ -225,27 +268,51 @@ static void *grow(arena *a, void *list, uint32_t *count, uint32_t *room, size_t 
     return list;
 }
 
-static bool seen(void *context, int note, const char *value, size_t length, lux_error *err)
+static source_content *grow_contents(arena *a, source_content *list, uint32_t *count,
+                                     uint32_t *room, lux_error *err)
 {
-    gltf_file *f     = context;
-    source_buffer *b = f->buffer_count ? &f->buffers[f->buffer_count - 1] : NULL;
-    source_image *i  = f->image_count ? &f->images[f->image_count - 1] : NULL;
+    list = grow(a, list, count, room, sizeof *list, err);
+    if (list)
+        list[*count - 1] = (source_content){ .view = -1 };
+    return list;
+}
+
+/* A new element of a list. */
+static bool seen_element(gltf_file *f, int note, lux_error *err)
+{
     switch (note) {
     case NOTE_BUFFER:
-        f->buffers =
-            grow(f->scratch, f->buffers, &f->buffer_count, &f->buffer_room, sizeof *b, err);
+        f->buffers = grow(f->scratch, f->buffers, &f->buffer_count, &f->buffer_room,
+                          sizeof *f->buffers, err);
         return f->buffers != NULL;
     case NOTE_IMAGE:
-        f->images = grow(f->scratch, f->images, &f->image_count, &f->image_room, sizeof *i, err);
-        if (f->images)
-            f->images[f->image_count - 1] = (source_image){ .view = -1 };
+        f->images = grow_contents(f->scratch, f->images, &f->image_count, &f->image_room, err);
         return f->images != NULL;
-    case NOTE_PRIMITIVE:
+    case NOTE_PROFILE:
+        f->profiles =
+            grow_contents(f->scratch, f->profiles, &f->profile_count, &f->profile_room, err);
+        return f->profiles != NULL;
+    default:
         f->indices = grow(f->scratch, f->indices, &f->primitive_count, &f->primitive_room,
                           sizeof *f->indices, err);
         if (f->indices)
             f->indices[f->primitive_count - 1] = -1;
         return f->indices != NULL;
+    }
+}
+
+static bool seen(void *context, int note, const char *value, size_t length, lux_error *err)
+{
+    gltf_file *f      = context;
+    source_buffer *b  = f->buffer_count ? &f->buffers[f->buffer_count - 1] : NULL;
+    source_content *i = f->image_count ? &f->images[f->image_count - 1] : NULL;
+    source_content *p = f->profile_count ? &f->profiles[f->profile_count - 1] : NULL;
+    switch (note) {
+    case NOTE_BUFFER:
+    case NOTE_IMAGE:
+    case NOTE_PROFILE:
+    case NOTE_PRIMITIVE:
+        return seen_element(f, note, err);
     case NOTE_INDICES:
         f->indices[f->primitive_count - 1] = (source_index)strtoll(value, NULL, 10);
         break;
@@ -266,6 +333,12 @@ static bool seen(void *context, int note, const char *value, size_t length, lux_
         break;
     case NOTE_IMAGE_URI:
         i->uri = value, i->uri_length = length;
+        break;
+    case NOTE_PROFILE_VIEW:
+        p->view = (source_index)strtoll(value, NULL, 10);
+        break;
+    case NOTE_PROFILE_URI:
+        p->uri = value, p->uri_length = length;
         break;
     }
     return true;

@@ -6,7 +6,8 @@
  *     gltf_tinygltf.cpp the JSON as structures: only this file knows the library
  *     gltf_access.c     accessors: buffer views, strides, sparse and normalised numbers
  *     gltf_mesh.c       triangles          gltf_material.c  materials, mean colours of pictures
- *     gltf_node.c       places             gltf.c           all of it in order, gltf_read()
+ *     gltf_node.c       places             gltf_light.c     lights
+ *     gltf.c            all of it in order, gltf_read()
  *
  * The library sees JSON alone: buffers, images, samplers, animations, skins and the indices of
  * primitives are hidden from it, so that it opens no file, decodes nothing and refuses nothing
@@ -32,11 +33,12 @@ typedef struct source_buffer {
     const uint8_t *bytes; /* `declared` of them; NULL: it has none, which is for its users to say */
 } source_buffer;
 
-typedef struct source_image {
+/* Where a file of another kind, an image or a photometric one, stands. */
+typedef struct source_content {
     const char *uri; /* as above; NULL: in a buffer view */
     size_t uri_length;
     source_index view;
-} source_image;
+} source_content;
 
 typedef struct gltf_file {
     const char *path; /* for messages */
@@ -45,11 +47,11 @@ typedef struct gltf_file {
     size_t json_size;
     const uint8_t *chunk; /* the binary chunk of a .glb; NULL: none */
     size_t chunk_size;
-    source_buffer *buffers; /* by gltf_file_check() */
-    source_image *images;
-    source_index *indices; /* of each primitive, mesh after mesh */
-    uint32_t buffer_count, image_count, primitive_count;
-    uint32_t buffer_room, image_room, primitive_room; /* in those lists */
+    source_buffer *buffers;            /* by gltf_file_check() */
+    source_content *images, *profiles; /* profiles: of EXT_lights_ies */
+    source_index *indices;             /* of each primitive, mesh after mesh */
+    uint32_t buffer_count, image_count, profile_count, primitive_count;
+    uint32_t buffer_room, image_room, profile_room, primitive_room; /* in those lists */
     uint32_t animation_count, skin_count;
 } gltf_file;
 
@@ -81,9 +83,14 @@ typedef struct source_mesh {
     uint32_t primitive_count;
 } source_mesh;
 
+/* Each extension that hangs lights on nodes has a list of its own. */
+enum { LIST_PUNCTUAL, LIST_IES, LIST_AREA, LIGHT_LISTS };
+
 typedef struct source_node {
     const char *name;
-    source_index mesh, camera, light, skin;
+    source_index mesh, camera, skin;
+    source_index light[LIGHT_LISTS];
+    double multiplier, tint[3]; /* of the light in LIST_IES */
     const int *children;
     uint32_t child_count;
     bool has_matrix, instanced;
@@ -111,6 +118,12 @@ typedef struct source_light {
     bool ranged;
 } source_light;
 
+/* EXT_lights_area, its older draft too; sizes in m, 0 where they are not said. */
+typedef struct source_area {
+    const char *name, *type, *shape; /* type, shape: "" where they are not said */
+    double color[3], intensity, size, aspect, width, height, radius;
+} source_area;
+
 typedef struct source_scene {
     const int *nodes;
     uint32_t node_count;
@@ -123,13 +136,15 @@ typedef struct source {
     const source_node *nodes;
     const source_material *materials;
     const source_camera *cameras;
-    const source_light *lights;
+    const source_light *lights; /* KHR_lights_punctual */
+    const source_area *areas;
     const source_scene *scenes;
     const source_index *textures;  /* the image of each */
     const char **used, **required; /* extensions */
+    const char **profile_names;    /* of gltf_file.profiles */
     uint32_t view_count, accessor_count, mesh_count, node_count, material_count, camera_count,
-        light_count, scene_count, texture_count, used_count, required_count;
-    uint32_t ies_count, area_count; /* nodes with EXT_lights_ies, EXT_lights_area */
+        light_count, area_count, scene_count, texture_count, used_count, required_count,
+        profile_name_count;
     source_index scene;
     const char *version, *least_version; /* of glTF: asset.version, asset.minVersion */
     void *model; /* the library's; texts and lists above may point into it */
@@ -168,6 +183,7 @@ typedef enum tally_kind {
     TALLY_COLOR,
     TALLY_MORPH,
     TALLY_SKIN,
+    TALLY_TINT,
     TALLY_KINDS
 } tally_kind;
 
@@ -183,6 +199,9 @@ typedef struct reader {
     arena *a; /* of the caller: results */
     notices *notices;
     gltf *out;
+    gltf_light *lights[LIGHT_LISTS]; /* of each list, as any node will have them */
+    uint32_t light_count[LIGHT_LISTS];
+    size_t embedded;                      /* bytes of photometric files so far */
     uint64_t triangles, positions, zeros; /* so far; zeros: positions without bytes in the file */
     tally tallies[TALLY_KINDS];
 } reader;
@@ -201,8 +220,10 @@ enum { ZEROS_MOST = 1 << 24 };
  * reach outside. */
 bool accessors_check(const reader *r, lux_error *err);
 
-/* Whether the buffer behind a checked view has bytes. */
-bool view_has_bytes(const reader *r, source_index view, const char *pointer, lux_error *err);
+/* The bytes of an image or the like; or the path of its file, *bytes being NULL then. `pointer`
+ * says where its uri or bufferView stands. */
+bool content_locate(const reader *r, const source_content *c, const char *pointer,
+                    const uint8_t **bytes, size_t *size, const char **path, lux_error *err);
 
 /* The elements of an accessor, in `into`, each `width` finite numbers, normalised where that is
  * asked for. The accessor has this width, or it is an error. */
@@ -220,7 +241,15 @@ const uint32_t *accessor_indices(const reader *r, arena *into, source_index acce
 /* Each makes its part of r->out. */
 bool read_meshes(reader *r, lux_error *err);
 bool read_materials(reader *r, lux_error *err);
-bool read_nodes(reader *r, lux_error *err); /* after the meshes; cameras and lights too */
+bool read_lights(reader *r, lux_error *err); /* r->lights; after accessors_check() */
+bool read_nodes(reader *r, lux_error *err);  /* after meshes and lights; cameras too */
+
+/* The lights of node i of the file: their number; whether they are there; they themselves, at
+ * `place`, put into r->out for its node `number`. */
+uint32_t node_light_count(const source_node *n);
+bool node_lights_valid(const reader *r, uint32_t i, lux_error *err);
+bool node_lights_add(reader *r, uint32_t i, uint32_t number, const transform *place,
+                     lux_error *err);
 
 /* A copy in the result's arena. */
 const char *read_name(const reader *r, const char *name, lux_error *err);

@@ -41,6 +41,19 @@ double number_in(const Value *object, const char *key, double otherwise)
     return v && v->IsNumber() ? v->GetNumberAsDouble() : otherwise;
 }
 
+const char *text_in(const Value *object, const char *key)
+{
+    const Value *v = member(object, key);
+    return v && v->IsString() ? v->Get<std::string>().c_str() : "";
+}
+
+void color_in(const Value *object, const char *key, double (&to)[3])
+{
+    const Value *v = member(object, key);
+    for (size_t i = 0; i < 3; i++)
+        to[i] = v && v->ArrayLen() == 3 ? v->Get(int(i)).GetNumberAsDouble() : 1.0;
+}
+
 template <size_t N> void copy(const std::vector<double> &from, double (&to)[N])
 {
     if (from.size() == N)
@@ -92,19 +105,24 @@ void convert(const tinygltf::Node &from, source_node &to)
 {
     const Value *instancing = find(from.extensions, "EXT_mesh_gpu_instancing");
     const Value *attributes = member(instancing, "attributes");
+    const Value *ies        = find(from.extensions, "EXT_lights_ies");
 
-    to.name           = from.name.c_str();
-    to.mesh           = from.mesh;
-    to.camera         = from.camera;
-    to.skin           = from.skin;
-    to.light          = index_in(find(from.extensions, "KHR_lights_punctual"), "light");
-    to.children       = from.children.data();
-    to.child_count    = uint32_t(from.children.size());
-    to.has_matrix     = !from.matrix.empty();
-    to.instanced      = instancing != nullptr;
-    to.instance_move  = index_in(attributes, "TRANSLATION");
-    to.instance_turn  = index_in(attributes, "ROTATION");
-    to.instance_scale = index_in(attributes, "SCALE");
+    to.name                 = from.name.c_str();
+    to.mesh                 = from.mesh;
+    to.camera               = from.camera;
+    to.skin                 = from.skin;
+    to.multiplier           = number_in(ies, "multiplier", 1.0);
+    to.children             = from.children.data();
+    to.child_count          = uint32_t(from.children.size());
+    to.has_matrix           = !from.matrix.empty();
+    to.instanced            = instancing != nullptr;
+    to.instance_move        = index_in(attributes, "TRANSLATION");
+    to.instance_turn        = index_in(attributes, "ROTATION");
+    to.instance_scale       = index_in(attributes, "SCALE");
+    to.light[LIST_PUNCTUAL] = index_in(find(from.extensions, "KHR_lights_punctual"), "light");
+    to.light[LIST_IES]      = index_in(ies, "light");
+    to.light[LIST_AREA]     = index_in(find(from.extensions, "EXT_lights_area"), "light");
+    color_in(ies, "color", to.tint);
     to.turn[3] = to.scale[0] = to.scale[1] = to.scale[2] = 1.0;
     copy(from.matrix, to.matrix);
     copy(from.translation, to.move);
@@ -154,6 +172,23 @@ void convert(const tinygltf::Light &from, source_light &to)
     copy(from.color, to.color);
 }
 
+void convert(const Value &from, source_area &to)
+{
+    to.name      = text_in(&from, "name");
+    to.type      = text_in(&from, "type");
+    to.shape     = text_in(&from, "shape");
+    to.intensity = number_in(&from, "luminance", number_in(&from, "intensity", 1000.0));
+    to.size      = number_in(&from, "size", 1.0);
+    to.aspect    = number_in(member(&from, "rect"), "aspect", 1.0);
+    to.width     = number_in(&from, "width", 0.0);
+    to.height    = number_in(&from, "height", 0.0);
+    to.radius    = number_in(&from, "radius", 0.0);
+    color_in(&from, "color", to.color);
+}
+
+// A profile of EXT_lights_ies: all but its name is in gltf_file.profiles.
+void convert(const Value &from, const char *&to) { to = text_in(&from, "name"); }
+
 void convert(const tinygltf::Scene &from, source_scene &to)
 {
     to = { from.nodes.data(), uint32_t(from.nodes.size()) };
@@ -201,11 +236,11 @@ void convert_meshes(const gltf_file *f, const std::vector<tinygltf::Mesh> &from,
     s->mesh_count = uint32_t(from.size());
 }
 
-uint32_t nodes_with(const tinygltf::Model &m, const char *extension)
+const Value::Array &lights_of(const tinygltf::Model &m, const char *extension)
 {
-    return uint32_t(std::count_if(m.nodes.begin(), m.nodes.end(), [extension](const auto &node) {
-        return node.extensions.count(extension) != 0;
-    }));
+    static const Value::Array none;
+    const Value *lights = member(find(m.extensions, extension), "lights");
+    return lights && lights->IsArray() ? lights->Get<Value::Array>() : none;
 }
 
 void convert_model(const gltf_file *f, const tinygltf::Model &m, source *s)
@@ -218,15 +253,16 @@ void convert_model(const gltf_file *f, const tinygltf::Model &m, source *s)
     s->materials = convert_all<Material, source_material>(a, m.materials, s->material_count);
     s->cameras   = convert_all<Camera, source_camera>(a, m.cameras, s->camera_count);
     s->lights    = convert_all<Light, source_light>(a, m.lights, s->light_count);
-    s->scenes    = convert_all<Scene, source_scene>(a, m.scenes, s->scene_count);
-    s->textures  = convert_all<Texture, source_index>(a, m.textures, s->texture_count);
-    s->used      = convert_all<std::string, const char *>(a, m.extensionsUsed, s->used_count);
+    s->areas = convert_all<Value, source_area>(a, lights_of(m, "EXT_lights_area"), s->area_count);
+    s->profile_names =
+        convert_all<Value, const char *>(a, lights_of(m, "EXT_lights_ies"), s->profile_name_count);
+    s->scenes   = convert_all<Scene, source_scene>(a, m.scenes, s->scene_count);
+    s->textures = convert_all<Texture, source_index>(a, m.textures, s->texture_count);
+    s->used     = convert_all<std::string, const char *>(a, m.extensionsUsed, s->used_count);
     s->required =
         convert_all<std::string, const char *>(a, m.extensionsRequired, s->required_count);
     convert_meshes(f, m.meshes, s);
 
-    s->ies_count     = nodes_with(m, "EXT_lights_ies");
-    s->area_count    = nodes_with(m, "EXT_lights_area");
     s->scene         = m.defaultScene;
     s->version       = m.asset.version.c_str();
     s->least_version = m.asset.minVersion.c_str();

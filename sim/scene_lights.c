@@ -192,7 +192,8 @@ static bool add_gltf_lights(scene_build *b)
         for (uint32_t k = 0; s->lights && k < b->files[i]->light_count; k++)
             for (int c = 0; c < s->at_count; c++) {
                 transform copy = scene_copy_place(s, c);
-                if (!add_punctual(b, &b->files[i]->lights[k], &copy))
+                if (b->files[i]->lights[k].kind <= GLTF_DIRECTIONAL &&
+                    !add_punctual(b, &b->files[i]->lights[k], &copy))
                     return false;
             }
     }

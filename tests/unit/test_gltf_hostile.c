@@ -41,6 +41,23 @@ static void assert_text_refused(const char *text, const char *sentence)
     assert_refused("scene.gltf", text, strlen(text), sentence);
 }
 
+/* That what gltf.h says of a light holds. */
+static void assert_light(const gltf *g, const gltf_light *l)
+{
+    assert_true(l->node < g->node_count);
+    assert_true(l->intensity >= 0 && isfinite(l->intensity));
+    assert_true(l->color.x >= 0 && l->color.y >= 0 && l->color.z >= 0);
+    if (l->kind == GLTF_IES) {
+        assert_true(!l->photometry_path != !l->photometry_bytes);
+        assert_true(!l->photometry_bytes || !l->photometry_bytes[l->photometry_size]);
+        assert_true(l->multiplier >= 0 && isfinite(l->multiplier));
+    }
+    if (l->kind == GLTF_AREA_RECT)
+        assert_true(l->width > 0 && l->height > 0 && isfinite((float)(l->width * l->height)));
+    if (l->kind == GLTF_AREA_DISK)
+        assert_true(l->radius > 0 && isfinite((float)(l->radius * l->radius)));
+}
+
 /* That it does not crash; whether it is read. */
 static bool survives(const void *bytes, size_t size)
 {
@@ -57,6 +74,8 @@ static bool survives(const void *bytes, size_t size)
     }
     for (uint32_t i = 0; g && i < g->placement_count; i++)
         assert_true(g->placements[i].mesh < g->mesh_count && g->placements[i].node < g->node_count);
+    for (uint32_t i = 0; g && i < g->light_count; i++)
+        assert_light(g, &g->lights[i]);
     assert_true(g || (err.code != ERR_NONE && !strchr(err.text, '\n')));
     arena_clear(&a);
     return g != NULL;
@@ -112,13 +131,19 @@ static char *whole_scene(arena *a, bool binary)
         ","
         "\"extensions\":{\"EXT_mesh_gpu_instancing\":{\"attributes\":{\"TRANSLATION\":2}}}},{"
         "\"name\":\"n\","
-        "\"camera\":1,\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}}],\"animations\":[{"
+        "\"camera\":1,\"extensions\":{\"KHR_lights_punctual\":{\"light\":0},\"EXT_lights_ies\":{"
+        "\"light\":1,\"multiplier\":2,\"color\":[1,1,1]},\"EXT_lights_area\":{\"light\":0}}}],"
+        "\"animations\":[{"
         "\"channels\":[],"
         "\"samplers\":[]}],\"skins\":[{\"joints\":[0]}],\"extensions\":{\"KHR_lights_punctual\":{"
         "\"lights\":[{"
         "\"type\":\"spot\",\"color\":[1,1,1],\"intensity\":5,\"range\":3,\"spot\":{"
         "\"innerConeAngle\":0,"
-        "\"outerConeAngle\":0.5}}]}}}",
+        "\"outerConeAngle\":0.5}}]},\"EXT_lights_ies\":{\"lights\":[{\"uri\":\"a.ies\"},{"
+        "\"bufferView\":1,\"mimeType\":\"application/x-ies-lm-63\"}]},\"EXT_lights_area\":{"
+        "\"lights\":[{\"type\":\"rect\",\"shape\":\"rect\",\"intensity\":5,\"size\":1,\"color\":"
+        "[1,1,1],\"rect\":{\"aspect\":2}},{\"shape\":\"disk\",\"luminance\":5,\"width\":1,"
+        "\"height\":1,\"radius\":1}]}}}",
         uri);
 }
 
@@ -284,6 +309,27 @@ TEST(an_error_names_the_pointer_and_what_is_wrong)
     assert_change_refused("\"mode\":4", "\"mode\":4,\"mode\":5",
                           "/meshes/0/primitives/0/mode: it is there twice");
     assert_change_refused("0,0,0,1],\"cam", "0,0,0,2],\"cam", "/nodes/0/matrix: the last row is");
+}
+
+/* Whole numbers beyond 32 bits would come out of the library as others. */
+TEST(large_whole_numbers_are_refused_not_wrapped)
+{
+    assert_change_refused("\"emissiveStrength\":2", "\"emissiveStrength\":4294967297",
+                          "/emissiveStrength: 4294967297, wanted 0 to 2e+09");
+    assert_change_refused("\"multiplier\":2", "\"multiplier\":2147483648",
+                          "/multiplier: 2147483648, wanted");
+    assert_change_refused("\"size\":1", "\"size\":4294967297", "/size: 4294967297, wanted above 0");
+}
+
+/* Once a key like "mesh\u0065s" passed every rule, and the library read it: a crash. */
+TEST(a_key_does_not_hide_behind_an_escape)
+{
+    assert_text_refused("{" ASSET ",\"m\\u0065shes\":[{\"primitives\":[{\"attributes\":"
+                        "{\"POSITION\":0}}]}]}",
+                        "/m\\u0065shes: a key with a backslash");
+    assert_change_refused("\"light\":1", "\"l\\u0069ght\":9", "a key with a backslash");
+    static const char extras[] = "{" ASSET ",\"extras\":{\"caf\\u00e9\":1}}";
+    assert_true(survives(extras, strlen(extras)));
 }
 
 TEST(a_graph_with_cycles_or_two_parents_is_refused)
@@ -518,6 +564,8 @@ int main(void)
         HOSTILE(any_value_may_be_anything),
         HOSTILE(a_byte_changed_anywhere_is_survived),
         HOSTILE(an_error_names_the_pointer_and_what_is_wrong),
+        HOSTILE(large_whole_numbers_are_refused_not_wrapped),
+        HOSTILE(a_key_does_not_hide_behind_an_escape),
         HOSTILE(a_graph_with_cycles_or_two_parents_is_refused),
         HOSTILE(deep_json_is_refused_before_anybody_walks_into_it),
         HOSTILE(a_deep_hierarchy_is_walked_without_a_stack),

@@ -59,7 +59,7 @@ static void trace_shadows(const scene *s, direct_scratch *w, int packets, ray_hi
 {
     for (int k = 0; k < packets; k++)
         w->ray_count += __builtin_popcount((unsigned)vbits(w->asked[k]));
-    world_any_hit(s->world, w->rays, w->asked, packets, hint, w->blocked);
+    world_any_hit(s->world, w->rays, w->asked, NULL, packets, hint, w->blocked);
 }
 
 void direct_all(const scene *s, direct_scratch *w, const vsurface *at, const vmask *active,

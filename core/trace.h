@@ -56,6 +56,7 @@ typedef enum query_kind { FIRST_HIT, ANY_HIT, ALL_HITS } query_kind;
 typedef struct hit_list {
     vhit *hits;
     int most;
+    bool through; /* all that is met counts as hollow */
     int count[LANES];
     bool stopped[LANES]; /* the last is not hollow */
     bool dropped[LANES]; /* there was one more than `most` */

@@ -301,9 +301,10 @@ static void walk_instance(query *q, query_kind kind, uint32_t number, vmask lane
         if (!vany(lanes))
             return;
     }
-    pass p = {
-        .q = q, .mesh = &q->w->meshes[at->mesh], .instance = (int32_t)number, .hollow = at->hollow
-    };
+    pass p = { .q        = q,
+               .mesh     = &q->w->meshes[at->mesh],
+               .instance = (int32_t)number,
+               .hollow   = at->hollow || (q->list && q->list->through) };
     if (at->identity) {
         walk_mesh(&p, kind, q->ray->origin, q->ray->direction, lanes);
     } else {

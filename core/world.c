@@ -196,12 +196,14 @@ void world_any_hit(const world *w, const vray *rays, const vmask *active, const 
             blocked[i] = trace_packet_any(w, &rays[i], active[i], spare ? spare[i] : vsplat_int(0));
 }
 
-bool world_all_hits(const world *w, const vray *rays, const vmask *active, int packets, int most,
-                    vhit *hits)
+static bool list_hits(const world *w, const vray *rays, const vmask *active, int packets, int most,
+                      bool through, vhit *hits)
 {
     bool all = true;
     for (int i = 0; i < packets; i++) {
-        hit_list list = { .hits = hits + (size_t)i * (size_t)most, .most = most };
+        hit_list list = { .hits    = hits + (size_t)i * (size_t)most,
+                          .most    = most,
+                          .through = through };
         for (int k = 0; k < most; k++)
             list.hits[k] = (vhit){ .distance = vsplat(INFINITY),
                                    .instance = vsplat_int(-1),
@@ -215,4 +217,16 @@ bool world_all_hits(const world *w, const vray *rays, const vmask *active, int p
         }
     }
     return all;
+}
+
+bool world_all_hits(const world *w, const vray *rays, const vmask *active, int packets, int most,
+                    vhit *hits)
+{
+    return list_hits(w, rays, active, packets, most, false, hits);
+}
+
+bool world_every_hit(const world *w, const vray *rays, const vmask *active, int packets, int most,
+                     vhit *hits)
+{
+    return list_hits(w, rays, active, packets, most, true, hits);
 }

@@ -94,6 +94,10 @@ void world_any_hit(const world *w, const vray *rays, const vmask *active, const 
 bool world_all_hits(const world *w, const vray *rays, const vmask *active, int packets, int most,
                     vhit *hits);
 
+/* The same as if all instances were hollow: whatever lies on the ray's line within its reach. */
+bool world_every_hit(const world *w, const vray *rays, const vmask *active, int packets, int most,
+                     vhit *hits);
+
 /* Where and what a hit is. */
 typedef struct vsurface {
     vvec3 position; /* m, on the triangle by its corners, and off its edges by the error */

@@ -419,6 +419,13 @@ TEST(all_hits_come_in_order_up_to_the_first_that_is_not_hollow)
     assert_false(world_all_hits(w, &r, &all, 1, 1, h));
     assert_true(vall(vabs(h[0].distance - 1.0f) < 1e-5f));
 
+    vhit every[PANES + 2]; /* the wall, too, is gone through */
+    assert_true(world_every_hit(w, &r, &all, 1, PANES + 2, every));
+    for (int k = 0; k < PANES + 2; k++) {
+        bool wall_hit = k == 5, none = k == PANES + 1;
+        assert_true(vall(every[k].instance == vsplat_int(none ? -1 : wall_hit ? 1 : 0)));
+    }
+
     r.reach = vsplat(3.5f);
     assert_true(world_all_hits(w, &r, &all, 1, 3, h));
     arena_clear(&a);

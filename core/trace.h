@@ -38,6 +38,7 @@ typedef struct solid {
 typedef struct placed {
     float to_mesh[3][4], to_world[3][4];
     uint32_t mesh;
+    int32_t owner;         /* 0: nobody's */
     bool hollow, identity; /* identity: rays need not be transformed */
 } placed;
 
@@ -55,6 +56,7 @@ typedef enum query_kind { FIRST_HIT, ANY_HIT, ALL_HITS } query_kind;
 typedef struct hit_list {
     vhit *hits;
     int most;
+    bool through; /* all that is met counts as hollow */
     int count[LANES];
     bool stopped[LANES]; /* the last is not hollow */
     bool dropped[LANES]; /* there was one more than `most` */
@@ -76,14 +78,14 @@ enum { MAILBOXES = 8 };
 
 /* One packet (trace_packet.c). */
 void trace_packet_first(const world *w, const vray *ray, vmask active, vhit *hit);
-vmask trace_packet_any(const world *w, const vray *ray, vmask active);
+vmask trace_packet_any(const world *w, const vray *ray, vmask active, vint spare);
 void trace_packet_all(const world *w, const vray *ray, vmask active, hit_list *list);
 
 /* A batch, in packets of rays that go the same way (trace_sorted.c). */
 void trace_sorted_first(const world *w, const vray *rays, const vmask *active, int packets,
                         vhit *hits);
-void trace_sorted_any(const world *w, const vray *rays, const vmask *active, int packets,
-                      vmask *blocked);
+void trace_sorted_any(const world *w, const vray *rays, const vmask *active, const vint *spare,
+                      int packets, vmask *blocked);
 
 /* Signs of a direction (bits 0 to 2), and which of x, y, z is its largest (bits 3 and 4). */
 static inline vint direction_code(vvec3 d)

@@ -122,6 +122,7 @@ typedef struct query {
     const world *w;
     const vray *ray;
     vfloat limit; /* farther is of no use; -INFINITY: nothing is */
+    vint spare;   /* instances of this owner are not there; 0: all are */
     vint instance, triangle;
     vfloat u, v;
     hit_list *list;
@@ -295,9 +296,15 @@ INLINE vvec3 turned(const float m[3][4], vvec3 a)
 static void walk_instance(query *q, query_kind kind, uint32_t number, vmask lanes)
 {
     const placed *at = &q->w->instances[number];
-    pass p           = {
-                  .q = q, .mesh = &q->w->meshes[at->mesh], .instance = (int32_t)number, .hollow = at->hollow
-    };
+    if (at->owner) {
+        lanes &= ~(q->spare == vsplat_int(at->owner));
+        if (!vany(lanes))
+            return;
+    }
+    pass p = { .q        = q,
+               .mesh     = &q->w->meshes[at->mesh],
+               .instance = (int32_t)number,
+               .hollow   = at->hollow || (q->list && q->list->through) };
     if (at->identity) {
         walk_mesh(&p, kind, q->ray->origin, q->ray->direction, lanes);
     } else {
@@ -378,9 +385,10 @@ void trace_packet_first(const world *w, const vray *ray, vmask active, vhit *hit
     hit->v        = q.v;
 }
 
-vmask trace_packet_any(const world *w, const vray *ray, vmask active)
+vmask trace_packet_any(const world *w, const vray *ray, vmask active, vint spare)
 {
     query q = query_make(w, ray, active);
+    q.spare = spare;
     walk_world(&q, ANY_HIT, active);
     return active & (q.limit < 0.0f);
 }

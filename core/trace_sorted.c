@@ -112,8 +112,8 @@ void trace_sorted_first(const world *w, const vray *rays, const vmask *active, i
     }
 }
 
-void trace_sorted_any(const world *w, const vray *rays, const vmask *active, int packets,
-                      vmask *blocked)
+void trace_sorted_any(const world *w, const vray *rays, const vmask *active, const vint *spare,
+                      int packets, vmask *blocked)
 {
     chunk c;
     for (int i = 0; i < packets; i += CHUNK) {
@@ -121,13 +121,16 @@ void trace_sorted_any(const world *w, const vray *rays, const vmask *active, int
         chunk_fill(&c, rays + i, active + i, some);
         chunk_sort(&c, some);
 
-        int32_t met[RAYS] = { 0 };
+        int32_t met[RAYS] = { 0 }, spared[RAYS];
         int count;
+        for (int k = 0; spare && k < some; k++)
+            vstore_int(spared + k * LANES, spare[i + k]);
         for (int at = 0; at < c.live; at += count) {
             vray ray;
             vmask there;
             count    = chunk_packet(&c, at, &ray, &there);
-            int bits = vbits(trace_packet_any(w, &ray, there));
+            vint own = spare ? vgather_int(spared, vload_int(c.order + at)) : vsplat_int(0);
+            int bits = vbits(trace_packet_any(w, &ray, there, own));
             for (int k = 0; k < count; k++)
                 met[c.order[at + k]] = bits >> k & 1;
         }

@@ -80,7 +80,9 @@ static bool make_meshes(arena *a, const world_desc *d, world *w, lux_error *err)
 
 static placed place(const world_instance *from)
 {
-    placed p    = { .mesh = from->mesh, .hollow = from->hollow, .identity = true };
+    placed p = {
+        .mesh = from->mesh, .owner = from->owner, .hollow = from->hollow, .identity = true
+    };
     transform r = transform_inverse(&from->place);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 4; j++) {
@@ -184,22 +186,24 @@ void world_first_hit(const world *w, const vray *rays, const vmask *active, int 
             trace_packet_first(w, &rays[i], active[i], &hits[i]);
 }
 
-void world_any_hit(const world *w, const vray *rays, const vmask *active, int packets,
-                   ray_hint hint, vmask *blocked)
+void world_any_hit(const world *w, const vray *rays, const vmask *active, const vint *spare,
+                   int packets, ray_hint hint, vmask *blocked)
 {
     if (!as_they_come(hint))
-        trace_sorted_any(w, rays, active, packets, blocked);
+        trace_sorted_any(w, rays, active, spare, packets, blocked);
     else
         for (int i = 0; i < packets; i++)
-            blocked[i] = trace_packet_any(w, &rays[i], active[i]);
+            blocked[i] = trace_packet_any(w, &rays[i], active[i], spare ? spare[i] : vsplat_int(0));
 }
 
-bool world_all_hits(const world *w, const vray *rays, const vmask *active, int packets, int most,
-                    vhit *hits)
+static bool list_hits(const world *w, const vray *rays, const vmask *active, int packets, int most,
+                      bool through, vhit *hits)
 {
     bool all = true;
     for (int i = 0; i < packets; i++) {
-        hit_list list = { .hits = hits + (size_t)i * (size_t)most, .most = most };
+        hit_list list = { .hits    = hits + (size_t)i * (size_t)most,
+                          .most    = most,
+                          .through = through };
         for (int k = 0; k < most; k++)
             list.hits[k] = (vhit){ .distance = vsplat(INFINITY),
                                    .instance = vsplat_int(-1),
@@ -213,4 +217,16 @@ bool world_all_hits(const world *w, const vray *rays, const vmask *active, int p
         }
     }
     return all;
+}
+
+bool world_all_hits(const world *w, const vray *rays, const vmask *active, int packets, int most,
+                    vhit *hits)
+{
+    return list_hits(w, rays, active, packets, most, false, hits);
+}
+
+bool world_every_hit(const world *w, const vray *rays, const vmask *active, int packets, int most,
+                     vhit *hits)
+{
+    return list_hits(w, rays, active, packets, most, true, hits);
 }

@@ -28,6 +28,7 @@ typedef struct world_instance {
     uint32_t mesh;   /* < mesh_count */
     transform place; /* mesh to world; any mirroring or scale, determinant not 0 */
     bool hollow;     /* its triangles let light through: all_hits goes on behind them */
+    int32_t owner; /* >= 1: part of the body of that number, which any_hit may spare; 0: of none */
 } world_instance;
 
 typedef enum triangle_test {
@@ -81,15 +82,21 @@ typedef enum ray_hint {
 void world_first_hit(const world *w, const vray *rays, const vmask *active, int packets,
                      ray_hint hint, vhit *hits);
 
-/* Whether each ray meets any surface: in blocked, only lanes of active. */
-void world_any_hit(const world *w, const vray *rays, const vmask *active, int packets,
-                   ray_hint hint, vmask *blocked);
+/* Whether each ray meets any surface: in blocked, only lanes of active. Instances whose owner is
+ * that in the ray's lane of spare do not count, so that a lamp's light leaves its own body; 0
+ * spares nothing, and nor does spare NULL. */
+void world_any_hit(const world *w, const vray *rays, const vmask *active, const vint *spare,
+                   int packets, ray_hint hint, vmask *blocked);
 
 /* Up to `most` hits of each ray in order of distance, hollow ones up to and including the first
  * that is not hollow: hits[packet * most + k] is hit k, a miss behind the last. Returns false
  * if some ray meets more than `most` before it is stopped: it then has the nearest ones. */
 bool world_all_hits(const world *w, const vray *rays, const vmask *active, int packets, int most,
                     vhit *hits);
+
+/* The same as if all instances were hollow: whatever lies on the ray's line within its reach. */
+bool world_every_hit(const world *w, const vray *rays, const vmask *active, int packets, int most,
+                     vhit *hits);
 
 /* Where and what a hit is. */
 typedef struct vsurface {

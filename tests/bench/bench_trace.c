@@ -144,7 +144,8 @@ static double trace(scene *c, kind k)
     ray_hint hint = k == DIFFUSE ? RAYS_INCOHERENT : RAYS_COHERENT;
     for (int i = 0; i < PACKETS; i += BATCH) {
         if (k == SHADOW)
-            world_any_hit(c->w, c->rays[k] + i, c->active[k] + i, BATCH, hint, c->blocked + i);
+            world_any_hit(c->w, c->rays[k] + i, c->active[k] + i, NULL, BATCH, hint,
+                          c->blocked + i);
         else
             world_first_hit(c->w, c->rays[k] + i, c->active[k] + i, BATCH, hint, c->hits + i);
     }

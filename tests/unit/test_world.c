@@ -90,7 +90,7 @@ static int compare_with_brute_force(const fixture *f, int rays, uint32_t seed)
         assert_true(same_bits(&got.v, &want.v, sizeof got.v));
 
         int met = vbits(want.instance >= vsplat_int(0));
-        world_any_hit(f->w, &r, &all, 1, RAYS_COHERENT, &blocked);
+        world_any_hit(f->w, &r, &all, NULL, 1, RAYS_COHERENT, &blocked);
         assert_int_equal(vbits(blocked), met);
         hits += __builtin_popcount((unsigned)met);
     }
@@ -262,8 +262,8 @@ TEST(hints_and_batches_change_no_bit)
         random_batch(rays, active, seed);
         world_first_hit(f.w, rays, active, BATCH, RAYS_COHERENT, a);
         world_first_hit(f.w, rays, active, BATCH, RAYS_INCOHERENT, b);
-        world_any_hit(f.w, rays, active, BATCH, RAYS_COHERENT, x);
-        world_any_hit(f.w, rays, active, BATCH, RAYS_INCOHERENT, y);
+        world_any_hit(f.w, rays, active, NULL, BATCH, RAYS_COHERENT, x);
+        world_any_hit(f.w, rays, active, NULL, BATCH, RAYS_INCOHERENT, y);
         assert_true(same_bits(a, b, sizeof a));
         for (int p = 0; p < BATCH; p++) {
             assert_int_equal(vbits(x[p]), vbits(y[p]));
@@ -292,7 +292,7 @@ TEST(dead_lanes_are_misses_whatever_they_hold)
                 if (!(vbits(active[p]) >> i & 1))
                     ray_set(&rays[p], i, (vec3){ NAN, 1, INFINITY }, (vec3){ 0, NAN, 0 }, NAN);
         world_first_hit(f.w, rays, active, BATCH, (ray_hint)hint, hits);
-        world_any_hit(f.w, rays, active, BATCH, (ray_hint)hint, blocked);
+        world_any_hit(f.w, rays, active, NULL, BATCH, (ray_hint)hint, blocked);
         for (int p = 0; p < BATCH; p++)
             for (int i = 0; i < LANES; i++) {
                 bool dead = !(vbits(active[p]) >> i & 1);
@@ -418,6 +418,13 @@ TEST(all_hits_come_in_order_up_to_the_first_that_is_not_hollow)
         assert_true(vall(vabs(h[k].distance - (float)(k + 1)) < 1e-5f));
     assert_false(world_all_hits(w, &r, &all, 1, 1, h));
     assert_true(vall(vabs(h[0].distance - 1.0f) < 1e-5f));
+
+    vhit every[PANES + 2]; /* the wall, too, is gone through */
+    assert_true(world_every_hit(w, &r, &all, 1, PANES + 2, every));
+    for (int k = 0; k < PANES + 2; k++) {
+        bool wall_hit = k == 5, none = k == PANES + 1;
+        assert_true(vall(every[k].instance == vsplat_int(none ? -1 : wall_hit ? 1 : 0)));
+    }
 
     r.reach = vsplat(3.5f);
     assert_true(world_all_hits(w, &r, &all, 1, 3, h));

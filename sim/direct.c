@@ -45,7 +45,7 @@ static void trace_shadows(const scene *s, direct_scratch *w, int packets, ray_hi
         w->ray_count += __builtin_popcount((unsigned)vbits(w->asked[k]));
     if (w->ray_count == before)
         return;
-    world_any_hit(s->world, w->rays, w->asked, packets, hint, s->owners ? w->spare : NULL,
+    world_any_hit(s->world, w->rays, w->asked, s->owners ? w->spare : NULL, packets, hint,
                   w->blocked);
 }
 
@@ -158,11 +158,12 @@ static vint choose(const scene *s, const direct_batch *b, int k, vfloat *chance)
         *chance = vsplat(0.0f);
         return vsplat_int(-1);
     }
-    vfloat rest;
+    vlight_choice drawn;
     vvec3 n = horizon_of(&b->at[k], b->all_around);
-    vint drawn =
-        vlight_tree_choose(tree, &b->at[k].position, &n, b->u[k].z, b->active[k], chance, &rest);
-    return b->glow_alone ? vselect_int(drawn >= 0, drawn + s->light_count, drawn) : drawn;
+    vlight_tree_choose(tree, &b->at[k].position, &n, b->u[k].z, b->active[k], &drawn);
+    *chance      = drawn.probability;
+    vint shifted = drawn.index + (b->glow_alone ? s->light_count : 0);
+    return vselect_int(drawn.index >= 0, shifted, drawn.index);
 }
 
 void direct_one(const scene *s, direct_scratch *w, const direct_batch *b, direct_pick *out)
@@ -191,7 +192,7 @@ vfloat direct_glow_pdf(const scene *s, const vsurface *at, const vvec3 *wi, vint
         return (vfloat){ 0 };
     vvec3 n       = horizon_of(at, all_around);
     vint index    = glow_alone ? emitter : emitter + s->light_count;
-    vfloat chance = vlight_tree_probability(tree, &at->position, &n, index, left);
+    vfloat chance = vlight_tree_probability(tree, &at->position, &n, vkeep_int(left, index), left);
     vfloat pdf    = { 0 };
     while (vany(left)) {
         int e      = lane(emitter, __builtin_ctz((unsigned)vbits(left)));

@@ -180,8 +180,8 @@ static void trace_batch(direct_sensor *w, ray_hint hint)
     for (int k = 0; k < w->batched; k++)
         w->ray_count += __builtin_popcount((unsigned)vbits(w->asked[k]));
     if (w->batched)
-        world_any_hit(w->s->world, w->rays, w->asked, w->batched, hint,
-                      w->s->owners ? w->spare : NULL, w->blocked);
+        world_any_hit(w->s->world, w->rays, w->asked, w->s->owners ? w->spare : NULL, w->batched,
+                      hint, w->blocked);
 }
 
 /* Ends the rays of whole packets to one lamp each. */
@@ -323,7 +323,7 @@ static void ask_tail(direct_sensor *w, const vsurface *at, int layer, uint32_t f
 }
 
 vmask direct_sensor_sum(direct_sensor *w, const vsurface *at, vmask active, uint32_t first,
-                       sensor_sum *sums)
+                        sensor_sum *sums)
 {
     memset(sums, 0, sizeof *sums * (size_t)(w->s->layered ? 1 + w->s->group_count : 1));
     vmask pending = { 0 };

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+enum { MOST_LIGHTS = 1 << 22, MOST_GROUPS = 32 /* that have a layer each */ };
+
 void *list_add(list *l, arena *a, size_t size, size_t align, lux_error *err)
 {
     if (l->count == l->room) {
@@ -77,19 +79,106 @@ static void say_what_surfaces_do(const scene_build *b, scene *s)
         s->reflects |= m->used && !is_dark(m->reflectance);
         s->glows |= m->used && !is_dark(m->emission);
     }
-    s->glow_share = b->area > 0.0 ? b->glowing_area / b->area : 0.0;
     if (s->light_count == 0 && !s->glows)
         notice_add(b->notices, "%s: nothing gives light: every result will be 0 lx",
                    b->study->path);
 }
 
-const scene *scene_new(arena *a, const study *from, int threads, notices *n, lux_error *err)
+/* Lamps and glowing triangles in one list, and what chooses among them. */
+static bool join_lights(scene_build *b, scene *s)
 {
-    scene_build b = { .a = a, .study = from, .notices = n, .err = err };
+    size_t lamps = b->lights.count, glowing = b->emitters.count;
+    if (lamps + glowing > MOST_LIGHTS)
+        return failed(b->err, ERR_ARGUMENT, "%s: more than %d lights and glowing triangles",
+                      b->study->path, MOST_LIGHTS);
+    const light **all = arena_array(b->a, const light *, lamps + glowing + 1, b->err);
+    if (!all)
+        return false;
+    if (lamps)
+        memcpy(all, b->lights.items, lamps * sizeof *all);
+    if (glowing)
+        memcpy(all + lamps, b->emitters.items, glowing * sizeof *all);
+    s->lights        = all;
+    s->light_count   = (int)lamps;
+    s->emitter_count = (int)glowing;
+    s->first_emitter = b->first_emitter;
+    s->emitter_of    = b->emitter_of.items;
+    if (lamps + glowing)
+        s->tree = light_tree_new(b->a, all, (int)(lamps + glowing), b->err);
+    if (glowing)
+        s->emitter_tree = light_tree_new(b->a, all + lamps, (int)glowing, b->err);
+    return (!(lamps + glowing) || s->tree) && (!glowing || s->emitter_tree);
+}
+
+/* Glowing surfaces are of the group of lights that are in none. */
+static bool take_groups(scene_build *b, scene *s)
+{
+    s->glow_dimming = 1.0f;
+    for (int i = 0; i < b->study->dimming_count; i++)
+        if (!strcmp(b->study->dimmings[i].group, STUDY_GROUP_OTHER))
+            s->glow_dimming *= (float)b->study->dimmings[i].factor;
+    const char **names = b->groups.items;
+    size_t other       = 0;
+    while (other < b->groups.count && strcmp(names[other], STUDY_GROUP_OTHER) != 0)
+        other++;
+    s->glow_group = (int)other;
+    if (other == b->groups.count && s->glows) {
+        const char **name = list_new(&b->groups, b->a, const char *, b->err);
+        if (!name)
+            return false;
+        *name = STUDY_GROUP_OTHER;
+    }
+    s->groups      = b->groups.items;
+    s->group_count = (int)b->groups.count;
+    s->layered     = b->options->layered;
+    if (s->layered && s->group_count > MOST_GROUPS)
+        return failed(b->err, ERR_ARGUMENT, "%s: %d groups, expected at most %d for --groups",
+                      b->study->path, s->group_count, MOST_GROUPS);
+    return true;
+}
+
+bool scene_is_in_room(const scene *s, dvec3 p)
+{
+    dvec3 size = s->study->room.size;
+    return !s->study->room.given || (p.x >= 0.0 && p.x <= size.x && p.y >= 0.0 && p.y <= size.y &&
+                                     p.z >= 0.0 && p.z <= size.z);
+}
+
+/* Lamps within a room that holds nothing else, or where there are no surfaces at all: a straight
+ * line between two places in a box meets none of its sides. */
+static void find_clear_lights(const scene_build *b, const scene *s)
+{
+    scene_light *info = b->light_info.items;
+    bool bare         = true;
+    for (int i = 0; i < b->study->scene_count; i++)
+        bare = bare && b->files[i]->placement_count == 0;
+    dvec3 size = b->study->room.size, off = d3_scale(size, 1e-6);
+    for (int l = 0; l < s->light_count; l++) {
+        light_bounds box = light_bounds_of(s->lights[l]);
+        dvec3 low        = d3_add(d3_from(box.low), b->centre);
+        dvec3 high       = d3_add(d3_from(box.high), b->centre);
+        bool inside      = !box.far && low.x > off.x && low.y > off.y && low.z > off.z &&
+                      high.x < size.x - off.x && high.y < size.y - off.y && high.z < size.z - off.z;
+        info[l].clear = bare && (inside || !b->study->room.given);
+    }
+}
+
+static void say_what_lights_are(scene *s)
+{
+    for (int l = 0; l < s->light_count; l++) {
+        s->extended |= light_has_extent(s->lights[l]);
+        s->owners |= s->light_info[l].owner != 0;
+    }
+}
+
+const scene *scene_new(arena *a, const study *from, const scene_options *o, notices *n,
+                       lux_error *err)
+{
+    scene_build b = { .a = a, .study = from, .options = o, .notices = n, .err = err };
     scene *s      = arena_new(a, scene, err);
-    if (!s || !read_files(&b) || !build_materials(&b) || !build_bounds(&b))
+    if (!s || !read_files(&b) || !build_materials(&b) || !build_bounds(&b) || !build_bodies(&b))
         return NULL;
-    s->world = build_world(&b, threads);
+    s->world = build_world(&b);
     if (!s->world || !build_lights(&b) || !build_cameras(&b))
         return NULL;
 
@@ -100,13 +189,17 @@ const scene *scene_new(arena *a, const study *from, int threads, notices *n, lux
     s->material_count = (int)b.materials.count;
     s->materials      = b.materials.items;
     s->material_info  = b.material_info.items;
-    s->light_count    = (int)b.lights.count;
-    s->lights         = b.lights.items;
-    s->light_info     = b.light_info.items;
     s->lights_differ  = b.lights_differ;
     s->camera_count   = (int)b.cameras.count;
     s->cameras        = b.cameras.items;
+    if (!join_lights(&b, s))
+        return NULL;
     say_what_surfaces_do(&b, s);
+    if (!take_groups(&b, s))
+        return NULL;
+    find_clear_lights(&b, s);
+    s->light_info = b.light_info.items;
+    say_what_lights_are(s);
     s->small_patches = scene_small_patches(s, n);
     return s;
 }

@@ -23,11 +23,15 @@ typedef struct scene_material {
 } scene_material;
 
 typedef struct scene_light {
-    const char *name; /* for reports: "downlight (4.ies)" */
-    dvec3 at;         /* m, in the user's frame; of a far one: where it shines to */
-    double lumens;    /* initial, dimming included; INFINITY: far away */
-    vec3 color;       /* luminance 1 */
-    int group;        /* in scene.groups */
+    const char *name;      /* for reports: "downlight (4.ies)" */
+    dvec3 at;              /* m, in the user's frame; of a far one: where it shines to */
+    double lumens;         /* initial, dimming included; INFINITY: far away */
+    double full;           /* lm, not dimmed */
+    double watts;          /* W, of the luminaire, not dimmed; NAN: not known */
+    const photometry *web; /* NULL */
+    const void *profile;   /* of a glTF light: which web of its file; NULL */
+    vec3 color;            /* luminance 1 */
+    int group;             /* in scene.groups */
     float dimming; /* by which its light is still to be multiplied: 1 unless the scene is layered */
     int owner;     /* of the instances that do not shade it (world_instance.owner); 0: all do */
     bool clear;    /* nothing stands between it and any place in the room */

@@ -1,5 +1,4 @@
-/* sim/scene_bounds.c -- where a scene's surfaces are, how often each mesh stands, how much glows.
- */
+/* sim/scene_bounds.c -- where a scene's surfaces are, how often each mesh stands. */
 #include "sim/room.h"
 #include "sim/scene_build.h"
 
@@ -118,49 +117,6 @@ static dvec3 middle_of_lamps(const study *s)
     return box_middle(at, at);
 }
 
-/* ---- what glows ------------------------------------------------------------------------------ */
-
-static bool glows(const gltf_material *m)
-{
-    return m->emission.x > 0.0f || m->emission.y > 0.0f || m->emission.z > 0.0f;
-}
-
-static bool any_glows(const scene_build *b)
-{
-    bool any = false;
-    for (int i = 0; i < b->study->scene_count; i++)
-        for (uint32_t m = 0; m < b->files[i]->material_count; m++)
-            any |= glows(&b->files[i]->materials[m]);
-    return any;
-}
-
-/* Of a mesh in one place, which counts `copies` times. */
-static void add_area(scene_build *b, const gltf *g, const mesh *m, const transform *place,
-                     int copies)
-{
-    for (uint32_t t = 0; t < m->triangle_count; t++) {
-        dvec3 p[3];
-        for (int c = 0; c < 3; c++)
-            p[c] = transform_point(place, d3_from(m->positions[m->corners[3 * t + (uint32_t)c]]));
-        double area = copies * 0.5 * d3_length(d3_cross(d3_sub(p[1], p[0]), d3_sub(p[2], p[0])));
-        b->area += area;
-        if (glows(&g->materials[m->material ? m->material[t] : 0]))
-            b->glowing_area += area;
-    }
-}
-
-/* All copies of a scene entry are of one size. */
-static void add_areas(scene_build *b, int i)
-{
-    const gltf *g        = b->files[i];
-    const study_scene *s = &b->study->scenes[i];
-    transform copy       = scene_copy_place(s, 0);
-    for (uint32_t k = 0; k < g->placement_count; k++) {
-        transform to = transform_product(&copy, &g->placements[k].place);
-        add_area(b, g, &g->meshes[g->placements[k].mesh].triangles, &to, s->at_count);
-    }
-}
-
 bool build_bounds(scene_build *b)
 {
     b->low  = (dvec3){ HUGE_VAL, HUGE_VAL, HUGE_VAL };
@@ -171,15 +127,10 @@ bool build_bounds(scene_build *b)
         dvec3 r = b->study->room.size;
         grow(&b->low, &b->high, (dvec3){ 0, 0, 0 });
         grow(&b->low, &b->high, r);
-        b->area += 2.0 * (r.x * r.y + r.y * r.z + r.z * r.x);
     }
-    bool glow = any_glows(b); /* areas are asked for only then */
-    for (int i = 0; i < b->study->scene_count; i++) {
-        if (glow)
-            add_areas(b, i);
+    for (int i = 0; i < b->study->scene_count; i++)
         if (scene_first_use(b, i) == i && !grow_by_file(b, i))
             return false;
-    }
     b->centre = box_middle(b->low, b->high);
     if (!(b->low.x <= b->high.x))
         b->centre = middle_of_lamps(b->study);

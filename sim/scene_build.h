@@ -14,18 +14,36 @@ typedef struct list {
 void *list_add(list *l, arena *a, size_t size, size_t align, lux_error *err);
 #define list_new(l, a, type, err) ((type *)list_add(l, a, sizeof(type), alignof(type), err))
 
+/* A luminaire at a glTF node. */
+typedef struct node_lamp {
+    transform place; /* of the node, in the user's frame */
+    int32_t owner;   /* world_instance.owner of what hangs at the node */
+} node_lamp;
+
+typedef struct node_lamps {
+    list lamps; /* of node_lamp */
+} node_lamps;
+
 typedef struct scene_build {
     arena *a;
     const study *study;
+    const scene_options *options;
     notices *notices;
     lux_error *err;
     const gltf **files;             /* of study->scenes */
     const uint32_t *first_material; /* of each file, as the scene counts */
     uint32_t *const *times; /* of each file: how often each of its meshes stands in the scene */
-    list materials, material_info, lights, light_info, cameras;
+    node_lamps *at_nodes;   /* of study->luminaires */
+    int32_t **owners;       /* of study->scenes: of placement k of copy c, c * placement_count + k;
+                               NULL: nobody's */
+    bool *
+        *owned; /* of study->scenes, by their first use: meshes that are of some body; NULL: none */
+    int32_t owner_count;
+    list materials, material_info, lights, light_info, cameras, groups;
+    list emitters, emitter_of; /* const light *; int32_t */
+    int64_t *first_emitter;    /* as in the scene */
     bool lights_differ;        /* in colour */
     dvec3 centre, low, high;   /* m, of the surfaces, in the user's frame */
-    double area, glowing_area; /* m^2 */
 } scene_build;
 
 /* The places of a study's scene entry: its k-th copy. */
@@ -36,9 +54,38 @@ int scene_first_use(const scene_build *b, int i);
 
 /* Each fills in its part of the build; false with the error where it fails. */
 bool build_materials(scene_build *b); /* scene_materials.c */
-bool build_bounds(scene_build *b);    /* scene_bounds.c: times, box, centre, areas */
-world *build_world(scene_build *b, int threads);
-bool build_lights(scene_build *b); /* scene_lights.c */
+bool build_bounds(scene_build *b);    /* scene_bounds.c: times, box, centre */
+bool build_bodies(scene_build *b);    /* scene_nodes.c: luminaires at nodes, what hangs there */
+world *build_world(scene_build *b);   /* scene_world.c */
+bool build_emitters(scene_build *b, const mesh *meshes, const world_instance *instances,
+                    uint32_t count);    /* scene_emitters.c, of what the world is made of */
+bool build_lights(scene_build *b);      /* scene_lights.c */
+bool build_gltf_lights(scene_build *b); /* scene_lights_gltf.c */
+
+/* ---- between the files that make lights ------------------------------------------------------ */
+
+/* A light to be added, and what is known of it. */
+typedef struct lamp_entry {
+    study_where where;
+    const char *name;
+    dvec3 at;                       /* m, in the user's frame; of a far one: where it shines to */
+    const study_emission *emission; /* colour, dimming, group */
+    double lumens;                  /* not dimmed; HUGE_VAL: far away */
+    double watts;                   /* not dimmed; NAN: not known */
+    const photometry *web;          /* NULL */
+    const void *profile;            /* of a glTF light: which web it is of the file; NULL */
+    int32_t owner;                  /* whose body does not shade it; 0: all do */
+    bool far;
+} lamp_entry;
+
+/* What a light of the scene is multiplied by when it is made: 1 in a layered scene. */
+double lamp_made_with(const scene_build *b, const study_emission *e);
+
+/* Adds a light that a maker gave, or passes on that it failed. */
+bool lamp_add(scene_build *b, const light *l, const lamp_entry *e);
+
+/* Radiometric channels of a photometric strength in a colour of luminance 1. */
+vec3 lamp_watts(vec3 color, double per_lumen_unit);
 
 /* How many lamps light patches too small for samples to find, of which the user is told
  * (scene_chance.c). */

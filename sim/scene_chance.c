@@ -12,10 +12,6 @@
 
 enum { PACKETS = 128 / LANES, RAYS = PACKETS * LANES };
 
-/* Glowing surfaces are met by chance, not sought: where they are less of all surfaces than this,
- * samples may miss them all. */
-static const double least_glow_share = 0.01;
-
 static const double near_share = 0.015; /* of how far the lamp sees */
 static const double flux_share = 0.01;  /* of a lamp's light: less than that does not matter */
 
@@ -169,8 +165,6 @@ int scene_small_patches(const scene *s, notices *n)
 
 const char *scene_left_to_chance(const scene *s, bool direct_only)
 {
-    if (s->glows && s->glow_share < least_glow_share)
-        return "glowing surfaces are small and met by chance, which samples may miss";
     if (!direct_only && s->reflects && s->small_patches > 0)
         return "lamps light small patches of surface, from where samples rarely find light back";
     return NULL;

@@ -26,10 +26,14 @@ typedef struct world_parts {
     list instances;
 } world_parts;
 
-/* A mesh is baked if it stands once, or is so small that copies cost little: see above. */
+/* A mesh is baked if it stands once, or is so small that copies cost little: see above. One that is
+ * a lamp's body stays itself. */
 static bool is_baked(const scene_build *b, int i, uint32_t mesh_index)
 {
-    double times = b->times[i][mesh_index];
+    double times      = b->times[i][mesh_index];
+    const bool *owned = b->owned[scene_first_use(b, i)];
+    if (owned && owned[mesh_index])
+        return false;
     return times == 1.0 ||
            times * b->files[i]->meshes[mesh_index].triangles.triangle_count <= MOST_COPIED;
 }
@@ -97,10 +101,11 @@ static bool add_instances(scene_build *b, world_parts *w, int i)
                     world_instance *in = list_new(&w->instances, b->a, world_instance, b->err);
                     if (!in)
                         return false;
-                    transform copy    = scene_copy_place(s, c);
-                    in->mesh          = w->mesh_count;
-                    in->place         = transform_product(&copy, &g->placements[k].place);
-                    dvec3 o           = d3_sub(transform_point(&in->place, moved), b->centre);
+                    transform copy = scene_copy_place(s, c);
+                    in->mesh       = w->mesh_count;
+                    in->owner = b->owners[j] ? b->owners[j][(size_t)c * g->placement_count + k] : 0;
+                    in->place = transform_product(&copy, &g->placements[k].place);
+                    dvec3 o   = d3_sub(transform_point(&in->place, moved), b->centre);
                     in->place.m[0][3] = o.x, in->place.m[1][3] = o.y, in->place.m[2][3] = o.z;
                 }
         }
@@ -160,7 +165,7 @@ static bool make_room(scene_build *b, world_parts *w)
     return w->common.positions && w->common.corners && w->common.material && w->meshes;
 }
 
-world *build_world(scene_build *b, int threads)
+world *build_world(scene_build *b)
 {
     /* The meshes are copied by the world: what is made here goes again */
     arena scratch     = { 0 };
@@ -185,12 +190,14 @@ world *build_world(scene_build *b, int threads)
         if (scene_first_use(b, i) == i && !add_instances(&local, &w, i))
             goto done;
 
+    if (!build_emitters(b, w.meshes, w.instances.items, (uint32_t)w.instances.count))
+        goto done;
     made = world_new(b->a,
                      &(world_desc){ .meshes         = w.meshes,
                                     .mesh_count     = w.mesh_count,
                                     .instances      = w.instances.items,
                                     .instance_count = (uint32_t)w.instances.count,
-                                    .threads        = threads },
+                                    .threads        = b->options->threads },
                      b->err);
 done:
     arena_clear(&scratch);

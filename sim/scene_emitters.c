@@ -1,0 +1,74 @@
+/* sim/scene_emitters.c -- the triangles of glowing surfaces as lights, and which triangle is which.
+ */
+#include "sim/scene_build.h"
+
+static bool glows(const scene_build *b, const mesh *m, uint32_t t)
+{
+    const material *const *all = b->materials.items;
+    vec3 e                     = all[m->material ? m->material[t] : 0]->emission;
+    return e.x > 0.0f || e.y > 0.0f || e.z > 0.0f;
+}
+
+static bool any_glows(const scene_build *b, const mesh *m)
+{
+    for (uint32_t t = 0; t < m->triangle_count; t++)
+        if (glows(b, m, t))
+            return true;
+    return false;
+}
+
+/* The light of triangle t; -1 in *number where it has no area that a float could hold. */
+static bool add_triangle(scene_build *b, const mesh *m, const world_instance *in, uint32_t t,
+                         int32_t *number)
+{
+    const material *const *all = b->materials.items;
+    triangle_desc d            = { .radiance = all[m->material ? m->material[t] : 0]->emission };
+    dvec3 p[3];
+    for (int c = 0; c < 3; c++) {
+        p[c] = transform_point(&in->place, d3_from(m->positions[m->corners[3 * t + (uint32_t)c]]));
+        d.corner[c] = d3_to_float(p[c]);
+    }
+    double area = 0.5 * d3_length(d3_cross(d3_sub(p[1], p[0]), d3_sub(p[2], p[0])));
+    *number     = -1;
+    if (!((float)area > 1e-30f))
+        return true;
+    const light *made = light_triangle(b->a, &d, b->err);
+    const light **to  = made ? list_new(&b->emitters, b->a, const light *, b->err) : NULL;
+    if (!to)
+        return false;
+    *to     = made;
+    *number = (int32_t)b->emitters.count - 1;
+    return true;
+}
+
+static bool add_instance(scene_build *b, const mesh *m, const world_instance *in)
+{
+    for (uint32_t t = 0; t < m->triangle_count; t++) {
+        int32_t number = -1;
+        if (glows(b, m, t) && !add_triangle(b, m, in, t, &number))
+            return false;
+        int32_t *of = list_new(&b->emitter_of, b->a, int32_t, b->err);
+        if (!of)
+            return false;
+        *of = number;
+    }
+    return true;
+}
+
+bool build_emitters(scene_build *b, const mesh *meshes, const world_instance *instances,
+                    uint32_t count)
+{
+    b->first_emitter = arena_array(b->a, int64_t, (size_t)count + 1, b->err);
+    if (!b->first_emitter)
+        return false;
+    for (uint32_t i = 0; i < count; i++) {
+        const mesh *m       = &meshes[instances[i].mesh];
+        b->first_emitter[i] = -1;
+        if (!any_glows(b, m))
+            continue;
+        b->first_emitter[i] = (int64_t)b->emitter_of.count;
+        if (!add_instance(b, m, &instances[i]))
+            return false;
+    }
+    return true;
+}

@@ -1,4 +1,12 @@
-/* lights/parallel.c -- light from so far away that it has one direction and one strength. */
+/* lights/parallel.c -- light of one direction and one strength: everywhere, or in a round beam.
+ *
+ * Everywhere, it comes from infinitely far away. A beam begins in the disk of its radius about
+ * `at`, which it leaves squarely: a point is lit if it is in front of that disk and
+ *
+ *     |v - (v . a) a| <= radius,    v from `at` to the point, a the unit axis
+ *
+ * and what stands before the disk shadows it, but nothing behind. It carries pi radius^2 E watts.
+ */
 #include "core/color.h"
 #include "lights/light.h"
 
@@ -6,6 +14,8 @@ typedef struct parallel_light {
     light base;
     vec3 toward;     /* unit, from the lit point to the light */
     vec3 irradiance; /* W/m^2, square to it */
+    vec3 at;         /* m, of a beam */
+    float radius;    /* m, of a beam; else 0 */
 } parallel_light;
 
 static vmask parallel_sample(const light *self, const vvec3 *p, vfloat s, vfloat t, vmask active,
@@ -21,12 +31,39 @@ static vmask parallel_sample(const light *self, const vvec3 *p, vfloat s, vfloat
     return active;
 }
 
+static vmask beam_sample(const light *self, const vvec3 *p, vfloat s, vfloat t, vmask active,
+                         vlight_sample *out)
+{
+    const parallel_light *l = (const parallel_light *)self;
+    (void)s, (void)t; /* there is but one place to draw */
+
+    /* How far the point is from where the beam begins, and from the beam's middle */
+    vvec3 toward = vspread(l->toward);
+    vvec3 to     = vsub(vspread(l->at), *p);
+    vfloat along = vdot(to, toward);
+    vvec3 across = vsub(to, vscale(toward, along));
+    vmask lit    = active & (along > 0.0f) & (vdot(across, across) <= l->radius * l->radius);
+
+    out->wi   = vkeep3(lit, toward);
+    out->dist = vkeep(lit, along);
+    out->e    = vkeep3(lit, vspread(l->irradiance));
+    out->pdf  = vkeep(lit, vsplat(INFINITY));
+    return lit;
+}
+
 static vec3 parallel_flux(const light *self)
 {
     (void)self;
     return (vec3){ INFINITY, INFINITY, INFINITY };
 }
 
+static vec3 beam_flux(const light *self)
+{
+    const parallel_light *l = (const parallel_light *)self;
+    return v3_scale(l->irradiance, (float)M_PI * l->radius * l->radius);
+}
+
+/* A beam's irradiance does not fall with distance, so that it too has no bound but this. */
 static light_bounds parallel_bounds(const light *self)
 {
     const parallel_light *l = (const parallel_light *)self;
@@ -37,10 +74,13 @@ static light_bounds parallel_bounds(const light *self)
                            .far        = true };
 }
 
-static const light_type parallel_type = { .name   = "parallel",
-                                          .sample = parallel_sample,
-                                          .flux   = parallel_flux,
-                                          .bounds = parallel_bounds };
+static const light_type parallel_type = {
+    .name = "parallel", .sample = parallel_sample, .flux = parallel_flux, .bounds = parallel_bounds
+};
+
+static const light_type beam_type = {
+    .name = "parallel", .sample = beam_sample, .flux = beam_flux, .bounds = parallel_bounds
+};
 
 const light *light_parallel(arena *a, const parallel_desc *d, lux_error *err)
 {
@@ -50,11 +90,17 @@ const light *light_parallel(arena *a, const parallel_desc *d, lux_error *err)
     if (!v3_nonnegative(d->irradiance))
         return failed(err, ERR_ARGUMENT, "parallel light: an irradiance is not >= 0 W/m^2");
 
+    if (!(d->radius >= 0.0f && d->radius < INFINITY))
+        return failed(err, ERR_ARGUMENT, "parallel light: a radius of %g m, wanted >= 0",
+                      (double)d->radius);
+
     parallel_light *l = arena_new(a, parallel_light, err);
     if (!l)
         return NULL;
-    l->base       = (light){ &parallel_type };
+    l->base       = (light){ d->radius > 0.0f ? &beam_type : &parallel_type };
     l->toward     = v3_scale(d->aim, -1.0f / length);
     l->irradiance = d->irradiance;
+    l->at         = d->at;
+    l->radius     = d->radius;
     return &l->base;
 }

@@ -171,8 +171,9 @@ static bool add_punctual(scene_build *b, const gltf_light *l, const transform *c
     vec3 place    = d3_to_float(d3_sub(at, b->centre));
     vec3 aim      = d3_to_float(d3_scale(along, 1.0 / d3_length(along)));
     vec3 color    = luminance_one(l->color);
-    vec3 strength = watts(color, l->intensity);
-    double i      = rgb_luminance(l->color) > 0.0f ? l->intensity : 0.0;
+    double given  = l->intensity * study_group_factor(b->study, NULL);
+    vec3 strength = watts(color, given);
+    double i      = rgb_luminance(l->color) > 0.0f ? given : 0.0;
 
     if (l->kind == GLTF_DIRECTIONAL)
         return add(b, light_parallel(b->a, &(parallel_desc){ aim, strength }, b->err), l->name,

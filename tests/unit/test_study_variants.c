@@ -172,6 +172,23 @@ TEST(variants_are_bounded)
     free(many);
 }
 
+TEST(what_variants_repeat_is_bounded)
+{
+    char *text  = malloc(1 << 20);
+    size_t used = (size_t)sprintf(text, "lux4: 1\nscene:\n");
+    for (int i = 0; i < 90000; i++)
+        used += (size_t)sprintf(text + used, "- a\n");
+    used += (size_t)sprintf(text + used, "variants:\n");
+    for (int i = 0; i < 21; i++)
+        used += (size_t)sprintf(text + used, "  v%d: {}\n", i);
+    assert_non_null(study_of_text(&memory, NULL, text)); /* 22 times 90,000 */
+    strcpy(text + used, "  w: {}\n");
+    assert_study_refused(NULL, text, ERR_FORMAT,
+                         "3:1: with the variant `w`: more than 2000000 items of lists in all "
+                         "variants together");
+    free(text);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -184,6 +201,7 @@ int main(void)
         cmocka_unit_test(a_study_must_be_good_without_its_variants),
         cmocka_unit_test_teardown(later_stages_name_the_variant, forget),
         cmocka_unit_test(variants_are_bounded),
+        cmocka_unit_test_teardown(what_variants_repeat_is_bounded, forget),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

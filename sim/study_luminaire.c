@@ -1,8 +1,5 @@
-/* sim/study_luminaire.c -- measured lamps: `luminaires` of a study, and where a layout puts them.
- */
+/* sim/study_luminaire.c -- measured lamps: `luminaires` of a study, one by one and in layouts. */
 #include "sim/study_read.h"
-
-#include <string.h>
 
 enum { MOST_LAID_OUT = 1000000 }; /* in all layouts */
 
@@ -14,7 +11,10 @@ static const double too_near = 1e-9;
 static bool read_fill(const study_reader *r, const yaml_node_t *value, void *field)
 {
     static const study_word words[] = { { "room", STUDY_OPTIONAL } };
-    return *(bool *)field           = study_read_word(r, value, words, 1, sizeof *words) == 0;
+    bool *fill                      = field;
+
+    *fill = study_read_word(r, value, words, 1, sizeof *words) == 0;
+    return *fill;
 }
 
 /* N, [nx, ny] or [nx, ny, nz] */

@@ -46,55 +46,6 @@ static int layer_straight_channel(const grid_run_state *g, int layer)
 }
 static int channel_count(const grid_run_state *g) { return layer_straight_channel(g, g->layers); }
 
-/* ---- sensors --------------------------------------------------------------------------------- */
-
-static bool plane_sensors(arena *a, const study_grid *g, grid_result *out, lux_error *err)
-{
-    double along_u, along_v;
-    study_grid_counts(g, &along_u, &along_v);
-    out->columns         = (int)along_u;
-    out->rows            = (int)along_v;
-    out->sensor_count    = out->columns * out->rows;
-    grid_sensor *sensors = arena_array(a, grid_sensor, (size_t)out->sensor_count, err);
-    if (!sensors)
-        return false;
-    dvec3 n = d3_cross(g->u, g->v);
-    n       = d3_scale(n, 1.0 / d3_length(n));
-    for (int k = 0; k < out->sensor_count; k++) {
-        double s   = (k % out->columns + 0.5) / out->columns;
-        double t   = (k / out->columns + 0.5) / out->rows;
-        dvec3 off  = d3_add(d3_scale(g->u, s), d3_scale(g->v, t));
-        sensors[k] = (grid_sensor){ d3_add(g->origin, off), n };
-    }
-    out->sensors = sensors;
-    return true;
-}
-
-static bool point_sensors(arena *a, const study_grid *g, grid_result *out, lux_error *err)
-{
-    probes p;
-    if (!probes_read(a, g->points, &p, err))
-        return false;
-    grid_sensor *sensors = arena_array(a, grid_sensor, (size_t)p.count, err);
-    if (!sensors)
-        return false;
-    for (int k = 0; k < p.count; k++)
-        sensors[k] = (grid_sensor){ p.position[k], p.normal[k] };
-    out->columns = out->sensor_count = p.count;
-    out->rows                        = 1;
-    out->sensors                     = sensors;
-    return true;
-}
-
-bool grid_sensors(arena *a, const study_grid *g, grid_result *out, lux_error *err)
-{
-    *out = (grid_result){ .grid = g };
-    if (g->quantity != QUANTITY_PLANAR || !isnan(g->require_maximum))
-        return failed(err, ERR_UNSUPPORTED,
-                      "grid %s: `quantity` and `maximum` are not simulated yet", g->name);
-    return g->points ? point_sensors(a, g, out, err) : plane_sensors(a, g, out, err);
-}
-
 /* How far a sensor may be off, and a surface that it lies on: a few roundings of the farthest
  * corner of the scene. */
 static float place_error(const scene *s, vec3 p)

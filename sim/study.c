@@ -211,12 +211,14 @@ const study *study_parse(arena *a, const char *path, const char *variant, const 
 {
     enum { ROOT = 1 }; /* libyaml's first node */
     yaml_document_t tree;
-    study_reader r = { .a       = a,
-                       .tree    = &tree,
-                       .path    = text_kept(a, path, err),
-                       .folder  = folder_of(a, path, err),
-                       .notices = n,
-                       .err     = err };
+    int items_left = STUDY_MOST_READ;
+    study_reader r = { .a          = a,
+                       .items_left = &items_left,
+                       .tree       = &tree,
+                       .path       = text_kept(a, path, err),
+                       .folder     = folder_of(a, path, err),
+                       .notices    = n,
+                       .err        = err };
     if (!r.path || !r.folder || !yaml_guard_load(&tree, path, text, size, err))
         return NULL;
 

@@ -4,9 +4,6 @@
  */
 #include "sim/study_read.h"
 
-#include <stdio.h>
-#include <string.h>
-
 static const double too_near     = 1e-9; /* m: nearer, one does not aim at a place */
 static const double least_sine   = 1e-6; /* of an angle: below, two directions are parallel */
 static const double largest_cosn = 1e4;  /* exponent of the cosine; a beam of 1 degree at half */

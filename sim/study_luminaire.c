@@ -1,8 +1,7 @@
-/* sim/study_luminaire.c -- measured lamps: `luminaires` of a study, and where a layout puts them.
- */
+/* sim/study_luminaire.c -- measured lamps: `luminaires` of a study, one by one and in layouts. */
 #include "sim/study_read.h"
 
-#include <string.h>
+enum { MOST_LAID_OUT = 1000000 }; /* in all layouts */
 
 /* Nearer than this, m, one does not aim at a place. */
 static const double too_near = 1e-9;
@@ -12,7 +11,10 @@ static const double too_near = 1e-9;
 static bool read_fill(const study_reader *r, const yaml_node_t *value, void *field)
 {
     static const study_word words[] = { { "room", STUDY_OPTIONAL } };
-    return *(bool *)field           = study_read_word(r, value, words, 1, sizeof *words) == 0;
+    bool *fill                      = field;
+
+    *fill = study_read_word(r, value, words, 1, sizeof *words) == 0;
+    return *fill;
 }
 
 /* N, [nx, ny] or [nx, ny, nz] */
@@ -207,10 +209,15 @@ static bool lay_out(const study *s, study_luminaire *l, arena *a, lux_error *err
 
 bool study_finish_luminaires(study *s, arena *a, lux_error *err)
 {
+    int laid_out = 0; /* a line makes many, and an alias many of such lines */
     for (int i = 0; i < s->luminaire_count; i++) {
         study_luminaire *l = &s->luminaires[i];
         if (l->layout.given && !lay_out(s, l, a, err))
             return false;
+        laid_out += l->layout.given ? l->at_count : 0;
+        if (laid_out > MOST_LAID_OUT)
+            return study_failed(s, l->where, err, ERR_FORMAT, "more than %d luminaires in layouts",
+                                MOST_LAID_OUT);
         for (int k = 0; l->aim_at_given && k < l->at_count; k++)
             if (!(d3_length(d3_sub(l->aim_at, l->at[k])) > too_near))
                 return study_failed(s, l->where, err, ERR_FORMAT,

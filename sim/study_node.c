@@ -258,7 +258,12 @@ void *study_read_list(const study_reader *r, const yaml_node_t *list, size_t siz
         return study_node_failed(r, list, ERR_FORMAT, "a list of %d, expected at most %d",
                                  study_items(list), STUDY_MOST_ITEMS);
 
-    *count      = study_items(list);
+    *count = study_items(list);
+    if (*count > *r->items_left)
+        return study_node_failed(r, list, ERR_FORMAT,
+                                 "more than %d items of lists in all variants together",
+                                 STUDY_MOST_READ);
+    *r->items_left -= *count;
     char *items = arena_alloc(r->a, (size_t)*count, size, alignof(double), r->err);
     for (int i = 0; items && i < *count; i++)
         if (!read(r, study_item(r, list, i), items + (size_t)i * size))

@@ -19,7 +19,8 @@
 enum {
     STUDY_MOST_ITEMS = 100000,
     STUDY_MOST_KEYS  = 32,
-    STUDY_MOST_NAMES = 64, /* in a mapping by names that the user chose: groups, variants */
+    STUDY_MOST_NAMES = 64,      /* in a mapping by names that the user chose: groups, variants */
+    STUDY_MOST_READ  = 2000000, /* items of lists, with every variant read for itself */
 };
 
 typedef struct study_reader {
@@ -27,6 +28,7 @@ typedef struct study_reader {
     yaml_document_t *tree;
     const char *path, *folder; /* as in study */
     const char *variant;       /* that is merged over the study, for messages; NULL */
+    int *items_left;           /* of STUDY_MOST_READ */
     notices *notices;          /* may be NULL */
     lux_error *err;            /* may be NULL */
 } study_reader;

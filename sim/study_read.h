@@ -13,7 +13,7 @@ study_read_fn study_read_grids;                                         /* study
 study_read_fn study_read_views;                                         /* study_view.c */
 study_read_fn study_read_variants;                                      /* study_variant.c */
 
-/* What luminaires and lights share: their name, and keys of the study_emission at an offset. */
+/* What luminaires and lights share: their name, and what is in their `emission`. */
 #define STUDY_EMITTER_KEYS(record)                                                                 \
     { "name", STUDY_OPTIONAL, study_read_name, offsetof(record, name) },                           \
         { "color", STUDY_OPTIONAL, study_read_color, offsetof(record, emission.color) },           \

@@ -3,6 +3,7 @@
 #include "tests/program.h"
 #include "tests/test.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -90,11 +91,11 @@ TEST(commands_that_are_promised_are_refused_by_name)
 
 TEST(options_that_are_promised_are_refused_by_name)
 {
-    static const char *const options[] = { "--groups", "--schedule",   "--transport", "--save-maps",
-                                           "--resume", "--no",         "--only",      "--variant",
-                                           "--tone",   "--false-color" };
+    static const char *const options[] = { "--groups",    "--schedule", "--transport",
+                                           "--save-maps", "--resume",   "--no",
+                                           "--only",      "--tone",     "--false-color" };
     char *folder                       = folder_of_study(room);
-    for (int i = 0; i < 10; i++) {
+    for (int i = 0; i < 9; i++) {
         LUX4_FAILS(folder, 2, "is not supported yet", "grid", "study.yaml", options[i], "auto");
         LUX4_FAILS(folder, 2, "is not supported yet", "render", options[i], "study.yaml");
     }
@@ -154,6 +155,25 @@ TEST(options_may_come_first_and_hold_their_value)
     folder_free(folder);
 }
 
+TEST(a_variant_is_chosen_by_its_name)
+{
+    char text[1000];
+    snprintf(text, sizeof text, "%svariants:\n  two: {lights: [%s, %s]}\n", room,
+             "{type: point, at: [1, 1, 2], intensity: 1}",
+             "{type: point, at: [2, 1, 2], lumens: 1}");
+    char *folder     = folder_of_study(text);
+    program_result r = { 0 };
+    LUX4(folder, 0, &r, "check", "study.yaml", "--json");
+    assert_tells(&r, "\"lights\":1,");
+    LUX4(folder, 0, &r, "check", "study.yaml", "--json", "--variant", "two");
+    assert_tells(&r, "\"lights\":2,");
+    LUX4(folder, 0, &r, "grid", "study.yaml", "--variant=two", "--accuracy=50%");
+    LUX4_FAILS(folder, 2, "no variant `tow`: did you mean `two`?", "render", "study.yaml",
+               "--variant", "tow");
+    program_free(&r);
+    folder_free(folder);
+}
+
 TEST(what_cannot_be_printed_is_an_error)
 {
     char *folder                      = folder_of_study(room);
@@ -199,6 +219,7 @@ int main(void)
         cmocka_unit_test(wrong_values_are_refused),
         cmocka_unit_test(one_study_is_wanted),
         cmocka_unit_test(options_may_come_first_and_hold_their_value),
+        cmocka_unit_test(a_variant_is_chosen_by_its_name),
         cmocka_unit_test(what_cannot_be_printed_is_an_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -7,17 +7,39 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size);
 
+static void look_at(const study *s)
+{
+    double along_u, along_v;
+    for (int i = 0; i < s->grid_count; i++) {
+        if (s->grids[i].points)
+            continue;
+        study_grid_counts(&s->grids[i], &along_u, &along_v);
+        if (!(s->grids[i].spacing > 0.0 && along_u >= 1.0 && along_v >= 1.0))
+            abort();
+    }
+    for (int i = 0; i < s->luminaire_count; i++)
+        if (!s->luminaires[i].nodes && !s->luminaires[i].at)
+            abort();
+    for (int i = 0; i < s->light_count; i++)
+        for (int k = 0; k < s->lights[i].at_count; k++)
+            if (!(d3_length(study_light_aim(&s->lights[i], k)) > 0.0))
+                abort();
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
-    arena memory   = { 0 };
-    notices n      = { .a = &memory };
-    lux_error err  = { 0 };
-    const study *s = study_parse(&memory, "s.yaml", NULL, (const char *)bytes, size, &n, &err);
-    if (!s && (strncmp(err.text, "s.yaml:", 7) != 0 || strpbrk(err.text, "\n\r\x1b")))
-        abort();
-    for (int i = 0; s && i < s->grid_count; i++)
-        if (!s->grids[i].points && !(s->grids[i].spacing > 0.0))
+    static const char *const variants[] = { NULL, "v" };
+    for (int i = 0; i < 2; i++) {
+        arena memory  = { 0 };
+        notices n     = { .a = &memory };
+        lux_error err = { 0 };
+        const study *s =
+            study_parse(&memory, "s.yaml", variants[i], (const char *)bytes, size, &n, &err);
+        if (!s && (strncmp(err.text, "s.yaml:", 7) != 0 || strpbrk(err.text, "\n\r\x1b")))
             abort();
-    arena_clear(&memory);
+        if (s)
+            look_at(s);
+        arena_clear(&memory);
+    }
     return 0;
 }

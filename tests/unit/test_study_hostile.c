@@ -14,15 +14,28 @@ static const char whole[] =
     "scene:\n  - {file: 'office.glb', scale: 0x1, lights: on}\n  - {file: desk.glb, at: &a [[2, "
     "1.5, 0], [4, 1.5, 0]], rotate: 90}\n"
     "sky: {model: none}\nmaintenance: 0.8\nluminaires:\n  - name: down\n    photometry: a.ies\n"
-    "    at: *a\n    color: 4000K\n    lumens: 3e3\n"
-    "lights: [{type: point, at: [0, 0, 3], intensity: 100, color: [1, 0.5, 0.2]}]\n"
+    "    at: *a\n    color: 4000K\n    lumens: 3e3\n    group: g\n    aim_at: [3, 2, 0]\n"
+    "  - {photometry: b.ldt, layout: {fill: room, z: 2.8, count: [2, 3]}}\n"
+    "  - {photometry: b.ldt, layout: {from: [0, 0, 1], to: [1, 2, 1], count: 4}}\n"
+    "  - {photometry: b.ldt, nodes: 'Spot*', aim: [0, 1, 0]}\n"
+    "lights:\n  - {type: point, at: [0, 0, 3], intensity: 100, color: [1, 0.5, 0.2]}\n"
+    "  - {type: cone, at: [0, 0, 3], aim_at: [0, 1, 0], lumens: 10, inner: 20, outer: 30}\n"
+    "  - {type: cosine, at: [0, 0, 3], aim: [0, 0, -1], intensity: 100, exponent: 4}\n"
+    "  - {type: parallel, aim: [0, 0, -1], illuminance: 9, at: [0, 0, 9], radius: 1}\n"
+    "  - {type: linear, from: [0, 0, 3], to: [2, 0, 3], lumens: 1000}\n"
+    "  - {type: disk, at: [0, 0, 3], radius: 0.2, photometry: c.ies}\n"
+    "  - {type: rect, at: [0, 0, 3], up: [0, 1, 0], size: [1.2, 0.3], luminance: 3000}\n"
+    "dimming: {g: 0.5, other: 2}\n"
     "materials:\n  - {match: \"W\\u00e4nd*\", reflectance: 0.5}\n"
     "grids:\n  - {name: desk, on: room, height: 0.75, margin: 0.5, spacing: en12464, "
     "require: {average: 500}}\n"
     "  - name: p\n    points: |-\n      probes.csv\n"
     "  - {name: plane, origin: [0, 0, 0.75], u: [10, 0, 0], v: [0, 6, 0], spacing: 0.5}\n"
+    "  - {name: wall, on: walls, spacing: 1, quantity: vertical, require: {maximum: 9}}\n"
+    "  - {name: c, on: ceiling, spacing: 2, quantity: semicylindrical, facing: [1, 0, 0]}\n"
     "views:\n  - {name: corner, eye: [0.2, 0.2, 1.6], target: [5, 3, 1], fov: 70, size: [64, 48]}\n"
-    "accuracy: 2%\n...\n";
+    "accuracy: 2%\nvariants:\n  v: {sky: {model: none}, dimming: {g: ~}, room: {size: [9, 9, 9]}}\n"
+    "  w: {grids: [], lights: []}\n...\n";
 
 /* Reads; if it is refused, the message must be one line that names the file. */
 static bool survives(const char *text, size_t size)

@@ -1,44 +1,14 @@
 /* tests/unit/test_study_messages.c -- each way to break a study, and what its author is told. */
-#include "sim/study.h"
+#include "tests/study_text.h"
 #include "tests/test.h"
 
 #include <stdio.h>
-#include <string.h>
-
-typedef struct broken {
-    const char *text, *says; /* behind "lux4: 1\n"; behind "s.yaml:" */
-} broken;
-
-static void assert_refused(const char *text, error_code code, const char *says)
-{
-    arena memory   = { 0 };
-    lux_error err  = { 0 };
-    const study *s = study_parse(&memory, "s.yaml", NULL, text, strlen(text), NULL, &err);
-    if (s)
-        fail_msg("read without an error, not \"%s\":\n%s", says, text);
-    if (strncmp(err.text, "s.yaml:", 7) != 0 || strcmp(err.text + 7, says) != 0)
-        fail_msg("\"%s\", not \"%s\", for\n%s", err.text, says, text);
-    assert_int_equal(err.code, code);
-    arena_clear(&memory);
-}
-
-static void assert_all_refused(const broken *table, size_t count, error_code code)
-{
-    for (size_t i = 0; i < count; i++) {
-        char text[2000] = "lux4: 1\n";
-        strcat(text, table[i].text);
-        assert_refused(text, code, table[i].says);
-    }
-}
-
-#define ALL_REFUSED(table, code) assert_all_refused(table, sizeof table / sizeof *table, code)
 
 TEST(every_key_of_the_contract_that_is_not_built_is_refused_by_name)
 {
-    static const broken table[] = {
+    static const broken_study table[] = {
         { "site: {place: x}", "2:1: `site` is not supported yet" },
         { "when: 2026-06-21T10:00", "2:1: `when` is not supported yet" },
-        { "variants: {a: {}}", "2:1: `variants` is not supported yet" },
         { "sky: {model: clear}", "2:14: `clear` is not supported yet" },
         { "sky: {model: uniform}", "2:14: `uniform` is not supported yet" },
         { "sky: {model: overcast}", "2:14: `overcast` is not supported yet" },
@@ -59,18 +29,6 @@ TEST(every_key_of_the_contract_that_is_not_built_is_refused_by_name)
         { "room: {windows: []}", "2:8: `windows` is not supported yet" },
         { "scene: {file: a, exterior: [b]}", "2:18: `exterior` is not supported yet" },
         { "scene: [{file: a, portals: [b]}]", "2:19: `portals` is not supported yet" },
-        { "luminaires:\n  - photometry: a.ies\n    layout: {}",
-          "4:5: `layout` is not supported yet" },
-        { "luminaires: [{group: a}]", "2:15: `group` is not supported yet" },
-        { "luminaires: [{nodes: a}]", "2:15: `nodes` is not supported yet" },
-        { "luminaires: [{aim_at: [1,2,3]}]", "2:15: `aim_at` is not supported yet" },
-        { "lights: [{type: point, group: a}]", "2:24: `group` is not supported yet" },
-        { "lights: [{type: cone}]", "2:17: `cone` is not supported yet" },
-        { "lights: [{exponent: 3, type: cosine}]", "2:30: `cosine` is not supported yet" },
-        { "lights: [{type: parallel}]", "2:17: `parallel` is not supported yet" },
-        { "lights: [{type: linear}]", "2:17: `linear` is not supported yet" },
-        { "lights: [{type: disk}]", "2:17: `disk` is not supported yet" },
-        { "lights: [{type: rect}]", "2:17: `rect` is not supported yet" },
         { "materials: [{specular: 1}]", "2:14: `specular` is not supported yet" },
         { "materials: [{exponent: 1}]", "2:14: `exponent` is not supported yet" },
         { "materials: [{mirror: 1}]", "2:14: `mirror` is not supported yet" },
@@ -84,15 +42,15 @@ TEST(every_key_of_the_contract_that_is_not_built_is_refused_by_name)
         { "views: [{projection: panorama}]", "2:22: `panorama` is not supported yet" },
     };
     ALL_REFUSED(table, ERR_UNSUPPORTED);
-    assert_refused("lux4: 2\nnew: 3", ERR_UNSUPPORTED,
-                   "1:7: version 2 of study files, this program knows 1");
-    assert_refused("new: 3\nlux4: 1.5", ERR_UNSUPPORTED,
-                   "2:7: version 1.5 of study files, this program knows 1");
+    assert_study_refused(NULL, "lux4: 2\nnew: 3", ERR_UNSUPPORTED,
+                         "1:7: version 2 of study files, this program knows 1");
+    assert_study_refused(NULL, "new: 3\nlux4: 1.5", ERR_UNSUPPORTED,
+                         "2:7: version 1.5 of study files, this program knows 1");
 }
 
 TEST(unknown_keys_are_named_with_the_nearest_known_one)
 {
-    static const broken table[] = {
+    static const broken_study table[] = {
         { "luminares: []", "2:1: unknown key `luminares`: did you mean `luminaires`?" },
         { "Grids: []", "2:1: unknown key `Grids`: did you mean `grids`?" },
         { "acuracy: 2%", "2:1: unknown key `acuracy`: did you mean `accuracy`?" },
@@ -106,15 +64,15 @@ TEST(unknown_keys_are_named_with_the_nearest_known_one)
           "2:8: unknown key `colour`: a room has size, reflectance, windows" },
         { "? [a]\n: b", "2:3: expected the name of a key, found a list of 1" },
         { "'': b", "2:1: unknown key an empty text: a study has lux4, room, scene, site, when, "
-                   "sky, maintenance, luminaires, lights, materials, grids, views, accuracy, "
-                   "variants" },
+                   "sky, maintenance, luminaires, lights, dimming, materials, grids, views, "
+                   "accuracy, variants" },
     };
     ALL_REFUSED(table, ERR_FORMAT);
 }
 
 TEST(keys_stand_once_and_are_not_forgotten)
 {
-    static const broken table[] = {
+    static const broken_study table[] = {
         { "scene: a\nlights: []\nscene: b", "4:1: the key `scene` stands in line 2 already" },
         { "lights: [{type: point,\n type: point}]",
           "3:2: the key `type` stands in line 2 already" },
@@ -122,16 +80,16 @@ TEST(keys_stand_once_and_are_not_forgotten)
         { "room: {size: [1, 1, 1], reflectance: {floor: 0, walls: 0}}",
           "2:38: a room's reflectance needs the key `ceiling`" },
         { "scene: [{scale: 2}]", "2:9: a scene needs the key `file`" },
-        { "luminaires:\n  - photometry: a", "3:5: a luminaire needs the key `at`" },
+        { "luminaires:\n  - photometry: a",
+          "3:5: a luminaire takes one of `at`, `layout` and `nodes`" },
         { "luminaires: [{at: [0, 0, 0]}]", "2:14: a luminaire needs the key `photometry`" },
         { "lights: [{at: [0, 0, 0]}]", "2:10: a point light needs the key `type`" },
         { "lights: [{type: point, lumens: 1}]", "2:10: a point light needs the key `at`" },
         { "materials: [{match: a}]", "2:13: a material needs the key `reflectance`" },
         { "grids: [{points: a}]", "2:9: a grid needs the key `name`" },
-        { "grids: [{name: a}]",
-          "2:9: a grid needs `on: room`, or `origin`, `u` and `v`, or `points`" },
+        { "grids: [{name: a}]", "2:9: a grid needs `on`, or `origin`, `u` and `v`, or `points`" },
         { "grids: [{name: a, on: room, spacing: 1}]",
-          "2:9: a grid with `on` needs the key `height`" },
+          "2:9: a grid with `on: room` needs the key `height`" },
         { "grids: [{name: a, origin: [0,0,0], u: [1,0,0], spacing: 1}]",
           "2:9: a grid with `origin` needs the key `v`" },
         { "views: [{eye: [0,0,0]}]", "2:9: a view needs the key `name`" },
@@ -142,12 +100,12 @@ TEST(keys_stand_once_and_are_not_forgotten)
         { "sky: {}", "2:6: a sky needs the key `model`" },
     };
     ALL_REFUSED(table, ERR_FORMAT);
-    assert_refused("scene: a", ERR_FORMAT, "1:1: a study needs the key `lux4`");
+    assert_study_refused(NULL, "scene: a", ERR_FORMAT, "1:1: a study needs the key `lux4`");
 }
 
 TEST(values_of_the_wrong_type_are_shown)
 {
-    static const broken table[] = {
+    static const broken_study table[] = {
         { "room: 5", "2:7: expected a mapping (key: value), found `5`" },
         { "room:", "2:6: expected a mapping (key: value), found nothing" },
         { "room: {size: 5}", "2:14: expected [x, y, z], found `5`" },
@@ -169,7 +127,9 @@ TEST(values_of_the_wrong_type_are_shown)
           "2:17: expected point or cone or cosine or parallel or linear or disk or rect, found "
           "`lamp`" },
         { "materials: [{match: ~, reflectance: 1}]", "2:21: expected a text, found `~`" },
-        { "grids: [{name: a, on: desk}]", "2:23: expected room, found `desk`" },
+        { "grids: [{name: a, on: desk}]",
+          "2:23: expected room or floor or ceiling or south or east or north or west or walls, "
+          "found `desk`" },
         { "grids: [{name: a, spacing: en1246}]",
           "2:28: expected a number > 0 or en12464, found `en1246`" },
         { "views: [{name: a, size: 5}]",
@@ -183,14 +143,16 @@ TEST(values_of_the_wrong_type_are_shown)
         { "sky: none", "2:6: expected a mapping (key: value), found `none`" },
     };
     ALL_REFUSED(table, ERR_FORMAT);
-    assert_refused("lux4", ERR_FORMAT, "1:1: expected a study (lux4: 1 ...), found `lux4`");
-    assert_refused("[lux4]", ERR_FORMAT, "1:1: expected a study (lux4: 1 ...), found a list of 1");
-    assert_refused("lux4: one", ERR_FORMAT, "1:7: expected a number, found `one`");
+    assert_study_refused(NULL, "lux4", ERR_FORMAT,
+                         "1:1: expected a study (lux4: 1 ...), found `lux4`");
+    assert_study_refused(NULL, "[lux4]", ERR_FORMAT,
+                         "1:1: expected a study (lux4: 1 ...), found a list of 1");
+    assert_study_refused(NULL, "lux4: one", ERR_FORMAT, "1:7: expected a number, found `one`");
 }
 
 TEST(numbers_outside_their_range_are_shown)
 {
-    static const broken table[] = {
+    static const broken_study table[] = {
         { "room: {size: [1, -1, 2]}", "2:18: expected a number > 0, found `-1`" },
         { "room: {size: [1, 0, 2]}", "2:18: expected a number > 0, found `0`" },
         { "room: {size: [1, 1e-300, 2]}",
@@ -236,9 +198,9 @@ TEST(colors_are_temperatures_or_channels)
         char text[200], says[200];
         snprintf(text, sizeof text, "lux4: 1\nluminaires: [{color: %s}]", bad[i]);
         snprintf(says, sizeof says, "%s`%s`", wanted, bad[i]);
-        assert_refused(text, ERR_FORMAT, says);
+        assert_study_refused(NULL, text, ERR_FORMAT, says);
     }
-    static const broken table[] = {
+    static const broken_study table[] = {
         { "luminaires: [{color: [0, 0, 0]}]", "2:22: expected a colour, found black" },
         { "luminaires: [{color: [1, -1, 0]}]", "2:26: expected a number >= 0, found `-1`" },
         { "luminaires: [{color: [1, 0]}]",
@@ -249,7 +211,7 @@ TEST(colors_are_temperatures_or_channels)
 
 TEST(what_contradicts_itself_is_refused)
 {
-    static const broken table[] = {
+    static const broken_study table[] = {
         { "lights: [{type: point, at: [0, 0, 0]}]",
           "2:10: a point light takes either `intensity` or `lumens`, found neither" },
         { "lights: [{type: point, at: [0, 0, 0], lumens: 1, intensity: 1}]",
@@ -265,7 +227,7 @@ TEST(what_contradicts_itself_is_refused)
         { "grids: [{name: a, origin: [0,0,0], u: [1,0,0], v: [0,1,0], spacing: 1, margin: 1}]",
           "2:80: `margin` does not go with `origin`" },
         { "grids: [{name: a, on: room, height: 1, spacing: 1}]",
-          "2:9: `on: room`, but there is no `room`" },
+          "2:9: a grid with `on` needs a room, but there is no `room`" },
         { "room: {size: [4, 3, 2], reflectance: 0}\n"
           "grids: [{name: a, on: room, height: 2, spacing: 1}]",
           "3:9: `height: 2` is not below the ceiling at 2 m" },
@@ -302,9 +264,9 @@ TEST(names_can_be_names_of_files_and_differ)
                  "2:16: expected a name of a-z, A-Z, 0-9, _, - and . that does "
                  "not begin with - or . (it names files), found `%s`",
                  bad[i]);
-        assert_refused(text, ERR_FORMAT, says);
+        assert_study_refused(NULL, text, ERR_FORMAT, says);
     }
-    static const broken table[] = {
+    static const broken_study table[] = {
         { "views: [{name: }]", "2:16: expected a name, found nothing" },
         { "views: [{name: ''}]", "2:16: expected a name, found an empty text" },
         { "views: [{name: \"a\\0b\"}]",

@@ -39,7 +39,7 @@ static bool look_at_grids(const command_context *c, const scene *s, findings *f,
 {
     for (int i = 0; i < s->study->grid_count; i++) {
         grid_result r;
-        if (!grid_sensors(c->a, &s->study->grids[i], &r, err))
+        if (!grid_sensors(c->a, s, &s->study->grids[i], &r, err))
             return false;
         f->largest = fmax(f->largest, bytes_of_sensors(r.sensor_count));
         if (print && s->study->grids[i].points)

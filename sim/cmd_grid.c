@@ -25,6 +25,8 @@ static void print_table(const scene *s, const grid_result *r, bool first)
     double worst = 100.0 * r->worst_half_width;
     printf("%-16s %8d %11.1f %11.1f %11.1f %8.3f %12.2f %9.2f\n", r->grid->name, r->sensor_count,
            r->average, r->minimum, r->maximum, r->uniformity, worst, r->seconds);
+    if (r->grid->quantity != QUANTITY_PLANAR)
+        printf("  %s\n", grid_quantity_name(r->grid->quantity));
     double m = s->study->maintenance;
     if (s->study->maintenance_given && m > 0.0 && m != 1.0)
         printf("  initial        %8s %11.1f %11.1f %11.1f %8s   (above: maintained, factor %g)\n",
@@ -32,13 +34,17 @@ static void print_table(const scene *s, const grid_result *r, bool first)
 
     grid_requirement asked[MOST_REQUIREMENTS];
     int count = grid_requirements(r, asked);
-    for (int i = 0; i < count; i++)
-        printf("  %-10s asked %g%s%s, got %.4g%s%s: %s%s\n", asked[i].name, asked[i].asked,
-               asked[i].unit[0] ? " " : "", asked[i].unit, asked[i].got,
-               asked[i].unit[0] ? " " : "", asked[i].unit, asked[i].met ? "met" : "MISSED",
-               fabs(asked[i].got - asked[i].asked) <= r->worst_half_width * asked[i].got
-                   ? " (too close to be sure: ask for more accuracy)"
-                   : "");
+    for (int i = 0; i < count; i++) {
+        const grid_requirement *q = &asked[i];
+        const char *blank         = q->unit[0] ? " " : "";
+        printf("  %-10s asked %s%g%s%s, got %.4g +- %.2g%s%s: %s%s\n", q->name,
+               strcmp(q->name, "maximum") ? "" : "at most ", q->asked, blank, q->unit, q->got,
+               q->half_width, blank, q->unit, q->met ? "met" : "MISSED",
+               q->decided ? "" : " (not decided at this accuracy: ask for more)");
+    }
+    if (r->left_out)
+        printf("  %d sensor%s left out: inside furniture\n", r->left_out,
+               r->left_out > 1 ? "s" : "");
     if (r->end != RUN_DONE)
         printf("  accuracy: %d of %d sensors are not within %g %% yet\n", r->missed,
                r->sensor_count, 100.0 * r->asked);
@@ -54,10 +60,17 @@ static void json_field(const char *name, double value)
     json_number(stdout, value);
 }
 
+static void json_text(const char *name, const char *value)
+{
+    printf(",\"%s\":", name);
+    json_string(stdout, value);
+}
+
 static void print_json(const grid_result *r, bool first)
 {
     fputs(first ? "{\"grids\":[{\"name\":" : ",{\"name\":", stdout);
     json_string(stdout, r->grid->name);
+    json_text("quantity", grid_quantity_name(r->grid->quantity));
     json_field("sensors", r->sensor_count);
     json_field("average_lx", r->average);
     json_field("minimum_lx", r->minimum);
@@ -66,6 +79,8 @@ static void print_json(const grid_result *r, bool first)
     json_field("average_half_width_lx", r->average_half_width);
     json_field("worst_half_width_percent", 100.0 * r->worst_half_width);
     json_field("sensors_missed", r->missed);
+    if (r->left_out)
+        json_field("sensors_left_out", r->left_out);
     if (r->end == RUN_INTERRUPTED)
         fputs(",\"partial\":true", stdout);
     fputs(",\"requirements\":[", stdout);
@@ -75,7 +90,9 @@ static void print_json(const grid_result *r, bool first)
         printf("%s{\"name\":\"%s\"", i ? "," : "", asked[i].name);
         json_field("asked", asked[i].asked);
         json_field("got", asked[i].got);
-        printf(",\"met\":%s}", asked[i].met ? "true" : "false");
+        json_field("half_width", asked[i].half_width);
+        printf(",\"met\":%s,\"decided\":%s}", asked[i].met ? "true" : "false",
+               asked[i].decided ? "true" : "false");
     }
     fputs("]}", stdout);
 }
@@ -100,7 +117,7 @@ static bool write_files(const command_context *c, const scene *s, const grid_res
     const char *name      = r->grid->name;
     const char *csv       = output_path(c->a, s->study, o, name, ".csv", err);
     const char *exr       = csv ? output_path(c->a, s->study, o, name, ".exr", err) : NULL;
-    if (!exr || !grid_write_csv(csv, r, err) || !grid_write_exr(exr, s, r, c->notices, err))
+    if (!exr || !grid_write_csv(csv, s, r, err) || !grid_write_exr(exr, s, r, c->notices, err))
         return false;
     if (!c->line->json)
         printf("  written: %s, %s\n", csv, exr);
@@ -156,7 +173,7 @@ static bool check_grids(const scene *s, const output_place *o, lux_error *err)
     for (int i = 0; i < from->grid_count && good; i++) {
         arena scratch = { 0 };
         grid_result ignored;
-        good = grid_sensors(&scratch, &from->grids[i], &ignored, err);
+        good = grid_sensors(&scratch, s, &from->grids[i], &ignored, err);
         arena_clear(&scratch);
     }
     for (int i = 0; i < from->grid_count && good; i++)
@@ -192,7 +209,8 @@ const command command_grid = {
     .help = "Illuminance is maintained illuminance where the study has `maintenance`. A sensor is\n"
             "done when half of its 95 % confidence interval is at most the accuracy asked for,\n"
             "of its value or of a tenth of the grid's average, whichever is more.\n",
-    .options = " -o --overwrite --accuracy --time --variant --threads --seed --direct-only --json "
+    .options = " -o --overwrite --accuracy --time --variant --threads --seed --direct-only "
+               "--groups --schedule --json "
                "--quiet ",
     .run     = grid_command,
 };

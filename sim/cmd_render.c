@@ -112,7 +112,8 @@ const command command_render = {
                "normal.X/Y/Z and albedo.R/G/B. A view is done when 98 % of its pixels are within the\n"
                "accuracy asked for, of their value or of a tenth of the picture's log-average: 10 %\n"
                "unless --accuracy says otherwise (`accuracy` in the study is for grids).\n",
-    .options = " -o --overwrite --accuracy --time --variant --threads --seed --direct-only --half "
+    .options = " -o --overwrite --accuracy --time --variant --threads --seed --direct-only "
+               "--groups --half "
                "--exposure "
                "--json --quiet ",
     .run     = render_command,

@@ -10,8 +10,9 @@ const scene *command_scene(const command_context *c, lux_error *err)
         return failed(err, ERR_ARGUMENT,
                       c->line->file_count ? "one study at a time, please"
                                           : "which study? (a .yaml file)");
-    const study *s = study_read(c->a, c->line->files[0], c->line->variant, c->notices, err);
-    return s ? scene_new(c->a, s, command_threads(c), c->notices, err) : NULL;
+    scene_options o = { .threads = command_threads(c), .layered = c->line->groups };
+    const study *s  = study_read(c->a, c->line->files[0], c->line->variant, c->notices, err);
+    return s ? scene_new(c->a, s, &o, c->notices, err) : NULL;
 }
 
 int command_threads(const command_context *c)

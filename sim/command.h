@@ -24,7 +24,7 @@ typedef struct command_line {
     output_place place; /* -o, --overwrite */
     int threads;        /* 0: as many as processors */
     uint32_t seed;      /* 1 */
-    bool quiet, json, direct_only, half;
+    bool quiet, json, direct_only, half, groups, schedule;
     double accuracy;          /* 0.02 for 2%; NAN */
     double seconds;           /* NAN */
     double exposure_ev;       /* 0: as the picture's average asks */

@@ -22,14 +22,14 @@ static const option options[] = {
     { "--threads", "N", "run on N threads (default: all processors)" },
     { "--seed", "N", "another number, another set of random samples (default 1)" },
     { "--direct-only", NULL, "leave interreflection out" },
+    { "--groups", NULL, "also a layer of each group of lamps, undimmed, for lux4 mix", true },
+    { "--schedule", NULL, "also the luminaires: counts, watts, lm/W, W/m2", true },
     { "--half", NULL, "write 16-bit floats" },
     { "--exposure", "EV", "brighter or darker preview, in stops" },
     { "--plot", "FILE.svg", "polar diagram, as data sheets have it", true },
     { "--write", "FILE", "convert to .ies or .ldt", true },
     { "--json", NULL, "results as one JSON object on stdout" },
     { "--quiet", NULL, "no progress bar, no warnings" },
-    { "--groups", NULL, NULL },
-    { "--schedule", "", NULL },
     { "--transport", "", NULL },
     { "--save-maps", "", NULL },
     { "--resume", NULL, NULL },
@@ -127,6 +127,10 @@ static bool take(command_line *l, const char *name, const char *value, lux_error
         l->place.overwrite = true;
     } else if (!strcmp(name, "--direct-only")) {
         l->direct_only = true;
+    } else if (!strcmp(name, "--groups")) {
+        l->groups = true;
+    } else if (!strcmp(name, "--schedule")) {
+        l->schedule = true;
     } else if (!strcmp(name, "--half")) {
         l->half = true;
     } else if (!strcmp(name, "--json")) {

@@ -3,8 +3,6 @@
 
 #include "core/color.h"
 
-enum { FEW_LAMPS = 12 }; /* up to so many are all looked at, to choose one */
-
 struct direct_scratch {
     vray rays[DIRECT_PACKETS];
     vmask asked[DIRECT_PACKETS], blocked[DIRECT_PACKETS];
@@ -115,32 +113,28 @@ vfloat direct_weight(const light *l, const vvec3 *p, const vvec3 *n, vmask activ
     return vkeep(lit & (cosine > 0.0f), vrgb_luminance(lamp.e) * cosine);
 }
 
-/* Which of few lamps each lane draws, -1 for none, and with what probability. */
-static vint choose_of_few(const scene *s, const vsurface *at, vmask active, vfloat pick,
-                          vfloat *chance)
+/* Which lamp of a set of few each lane draws, -1 for none, and with what probability. */
+static vint choose_of_few(const scene *s, const light_set *set, const vsurface *at, vmask active,
+                          vfloat pick, vfloat *chance)
 {
     vfloat weight[FEW_LAMPS], total = { 0 };
-    for (int l = 0; l < s->light_count; l++) {
-        weight[l] = direct_weight(s->lights[l], &at->position, &at->normal, active);
-        total     = total + weight[l];
+    for (int i = 0; i < set->lamps; i++) {
+        const light *l = s->lights[set->lights[i]];
+        weight[i]      = direct_weight(l, &at->position, &at->normal, active);
+        total          = total + weight[i];
     }
 
     /* The first lamp at which the running sum reaches pick * total: it reaches all of it at last */
     vint drawn   = vsplat_int(-1);
     vfloat share = { 0 }, sum = { 0 }, threshold = pick * total;
-    for (int l = 0; l < s->light_count; l++) {
-        sum        = sum + weight[l];
-        vmask this = active & (drawn < 0) & (weight[l] > 0.0f) & (sum >= threshold);
-        drawn      = vselect_int(this, vsplat_int(l), drawn);
-        share      = vselect(this, weight[l], share);
+    for (int i = 0; i < set->lamps; i++) {
+        sum        = sum + weight[i];
+        vmask this = active & (drawn < 0) & (weight[i] > 0.0f) & (sum >= threshold);
+        drawn      = vselect_int(this, vsplat_int(set->lights[i]), drawn);
+        share      = vselect(this, weight[i], share);
     }
     *chance = vkeep(drawn >= 0, share / total);
     return drawn;
-}
-
-static bool are_few(const scene *s, const direct_batch *b)
-{
-    return !b->glow_alone && !b->all_around && s->emitter_count == 0 && s->light_count <= FEW_LAMPS;
 }
 
 /* The normal by which lights are chosen: none where light from all around counts. */
@@ -149,21 +143,39 @@ static vvec3 horizon_of(const vsurface *at, bool all_around)
     return all_around ? (vvec3){ 0 } : at->normal;
 }
 
+static vint choose_of_set(const scene *s, const light_set *set, const direct_batch *b, int k,
+                          vmask active, vfloat pick, vfloat *chance)
+{
+    if (!set->tree)
+        return choose_of_few(s, set, &b->at[k], active, pick, chance);
+    vlight_choice drawn;
+    vvec3 n   = horizon_of(&b->at[k], b->all_around);
+    vmask any = vlight_tree_choose(set->tree, &b->at[k].position, &n, pick, active, &drawn);
+    *chance   = drawn.probability;
+    return vselect_int(any, vgather_int(set->lights, vkeep_int(any, drawn.index)), vsplat_int(-1));
+}
+
+/* Of the layers of a scene one is taken, each as often as another: a small one is not to be noisy
+ * for the sake of a large one. */
 static vint choose(const scene *s, const direct_batch *b, int k, vfloat *chance)
 {
-    if (are_few(s, b))
-        return choose_of_few(s, &b->at[k], b->active[k], b->u[k].z, chance);
-    const light_tree *tree = b->glow_alone ? s->emitter_tree : s->tree;
-    if (!tree) {
-        *chance = vsplat(0.0f);
-        return vsplat_int(-1);
+    if (b->glow_alone)
+        return choose_of_set(s, &s->glow_set, b, k, b->active[k], b->u[k].z, chance);
+    vfloat scaled = b->u[k].z * (float)s->set_count;
+    vint which    = vto_int(scaled);
+    vfloat pick   = scaled - vto_float(which);
+    vint drawn    = vsplat_int(-1);
+    *chance       = vsplat(0.0f);
+    for (int i = 0; i < s->set_count; i++) {
+        vmask here = b->active[k] & (which == i);
+        if (!vany(here))
+            continue;
+        vfloat own;
+        vint one = choose_of_set(s, &s->sets[i], b, k, here, pick, &own);
+        drawn    = vselect_int(here, one, drawn);
+        *chance  = vselect(here, own * (1.0f / (float)s->set_count), *chance);
     }
-    vlight_choice drawn;
-    vvec3 n = horizon_of(&b->at[k], b->all_around);
-    vlight_tree_choose(tree, &b->at[k].position, &n, b->u[k].z, b->active[k], &drawn);
-    *chance      = drawn.probability;
-    vint shifted = drawn.index + (b->glow_alone ? s->light_count : 0);
-    return vselect_int(drawn.index >= 0, shifted, drawn.index);
+    return drawn;
 }
 
 void direct_one(const scene *s, direct_scratch *w, const direct_batch *b, direct_pick *out)
@@ -186,13 +198,13 @@ void direct_one(const scene *s, direct_scratch *w, const direct_batch *b, direct
 vfloat direct_glow_pdf(const scene *s, const vsurface *at, const vvec3 *wi, vint emitter,
                        bool glow_alone, bool all_around, vmask active)
 {
-    const light_tree *tree = glow_alone ? s->emitter_tree : s->tree;
-    vmask left             = active & (emitter >= 0);
-    if (!tree || !vany(left))
+    const light_set *set = glow_alone ? &s->glow_set : &s->sets[s->layered ? s->glow_group : 0];
+    vmask left           = active & (emitter >= 0);
+    if (s->emitter_count == 0 || !vany(left))
         return (vfloat){ 0 };
     vvec3 n       = horizon_of(at, all_around);
-    vint index    = glow_alone ? emitter : emitter + s->light_count;
-    vfloat chance = vlight_tree_probability(tree, &at->position, &n, vkeep_int(left, index), left);
+    vint index    = vkeep_int(left, emitter + set->lamps); /* emitters stand behind the lamps */
+    vfloat chance = vlight_tree_probability(set->tree, &at->position, &n, index, left);
     vfloat pdf    = { 0 };
     while (vany(left)) {
         int e      = lane(emitter, __builtin_ctz((unsigned)vbits(left)));
@@ -203,5 +215,5 @@ vfloat direct_glow_pdf(const scene *s, const vsurface *at, const vvec3 *wi, vint
         vmask met      = l->type->hit(l, &at->position, wi, same, &hit);
         pdf            = vselect(met, hit.pdf, pdf);
     }
-    return pdf * chance;
+    return pdf * chance * (glow_alone ? 1.0f : 1.0f / (float)s->set_count);
 }

@@ -9,7 +9,7 @@
 #include <string.h>
 
 enum {
-    FEW_LAMPS  = 16, /* as many are asked one by one */
+    ASKED_LAMPS  = 16, /* as many are asked one by one */
     TAIL_RAYS  = 16, /* a sensor and layer, for all weak lamps together */
     BUCKETS    = 1024,
     SAMPLE_SET = 0x1a3b, /* the samples of lamps, beside those of paths */
@@ -242,7 +242,7 @@ static void find_weakest(direct_sensor *w, vmask active)
 {
     for (int layer = 0; layer < w->layers; layer++) {
         float weakest[LANES] = { 0 };
-        for (int bits = vbits(active); bits && w->s->light_count > FEW_LAMPS; bits &= bits - 1) {
+        for (int bits = vbits(active); bits && w->s->light_count > ASKED_LAMPS; bits &= bits - 1) {
             int i      = __builtin_ctz((unsigned)bits);
             weakest[i] = weakest_of(w, layer, i);
         }
@@ -428,10 +428,10 @@ static void draw_packet(direct_sensor *w, int i, int k, vuint index, vuint seed,
 }
 
 void direct_sensor_draw(direct_sensor *w, int i, const uint32_t *index, const uint32_t *seed,
-                        int count, float *e, int32_t *light)
+                        int count, float *e, int32_t *lamp)
 {
     for (int j = 0; j < count; j++)
-        e[j] = 0.0f, light[j] = -1;
+        e[j] = 0.0f, lamp[j] = -1;
     if (!w->listed_count[i])
         return;
     for (int from = 0; from < count; from += DIRECT_PACKETS * LANES) {
@@ -448,7 +448,7 @@ void direct_sensor_draw(direct_sensor *w, int i, const uint32_t *index, const ui
             int k = (j - from) / LANES, at = (j - from) % LANES;
             bool hidden = vbits(w->asked[k] & w->blocked[k]) >> at & 1;
             e[j]        = hidden ? 0.0f : lane(w->e[k], at);
-            light[j]    = lane(w->light[k], at);
+            lamp[j]     = lane(w->light[k], at);
         }
         w->batched = 0;
     }

@@ -32,17 +32,18 @@ typedef struct direct_sensor direct_sensor;
 direct_sensor *direct_sensor_new(arena *a, const scene *s, const sensor_ask *ask, lux_error *err);
 
 /* The part that needs no samples, for a packet of sensors, whose numbers begin with `first`:
- * sums[0] as dimmed, sums[1 + g] of group g if the scene is layered. */
-void direct_sensor_sum(direct_sensor *w, const vsurface *at, vmask active, uint32_t first,
-                       sensor_sum *sums);
+ * sums[0] as dimmed, sums[1 + g] of group g if the scene is layered. The lanes whose sensor has
+ * another part, too. */
+vmask direct_sensor_sum(direct_sensor *w, const vsurface *at, vmask active, uint32_t first,
+                        sensor_sum *sums);
 
 /* Looks at a packet of sensors whose other part is to be sampled. */
 void direct_sensor_prepare(direct_sensor *w, const vsurface *at, vmask active);
 
 /* Samples of sensor i of that packet: number index[j] of the set seed[j] names, j < count. In e[j]
- * the luminance, W/m^2, undimmed in a layered scene, and in light[j] the lamp, -1 for none. */
+ * the luminance, W/m^2, undimmed in a layered scene, and in lamp[j] the lamp, -1 for none. */
 void direct_sensor_draw(direct_sensor *w, int i, const uint32_t *index, const uint32_t *seed,
-                        int count, float *e, int32_t *light);
+                        int count, float *e, int32_t *lamp);
 
 /* Shadow rays traced so far. */
 int64_t direct_sensor_rays(const direct_sensor *w);

@@ -223,6 +223,8 @@ static void summarise(grid_result *r)
         double ratio        = r->half_width[k] > 0.0 ? r->half_width[k] / against : 0.0;
         r->worst_half_width = fmax(r->worst_half_width, ratio);
     }
+    if (isnan(r->reached))
+        r->reached = r->worst_half_width;
 }
 
 /* At a lamp itself illuminance has no bound. */
@@ -330,7 +332,8 @@ static bool run(arena *a, grid_run_state *g, grid_result *out, lux_error *err)
     if (s->glows || reflects || atomic_load(&g->lamps_left))
         return sample_rest(a, g, out, err);
     take_results(g, NULL, out);
-    out->end = RUN_DONE;
+    out->end     = RUN_DONE;
+    out->reached = (double)NAN; /* as the bounds say: see summarise() */
     return true;
 }
 
@@ -366,22 +369,4 @@ bool grid_run(arena *a, const scene *s, const study_grid *grid, const run_option
     }
     arena_clear(&scratch);
     return good;
-}
-
-int grid_requirements(const grid_result *r, grid_requirement out[MOST_REQUIREMENTS])
-{
-    const grid_requirement all[MOST_REQUIREMENTS] = {
-        { "average", "lx", r->grid->require_average, r->average, false },
-        { "minimum", "lx", r->grid->require_minimum, r->minimum, false },
-        { "uniformity", "", r->grid->require_uniformity, r->uniformity, false },
-    };
-    int count = 0;
-    for (int k = 0; k < MOST_REQUIREMENTS; k++) {
-        if (isnan(all[k].asked))
-            continue;
-        out[count]     = all[k];
-        out[count].met = all[k].got >= all[k].asked;
-        count++;
-    }
-    return count;
 }

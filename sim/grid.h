@@ -54,22 +54,28 @@ typedef struct grid_result {
 
 enum { GRID_DEFAULT_PERCENT = 2 };
 
-/* The sensors of a grid in a, in rows and columns. False, with *err, for a bad points file. */
-bool grid_sensors(arena *a, const study_grid *g, grid_result *out, lux_error *err);
+/* The sensors of a grid in a, in rows and columns, but for those of a plane that lie inside
+ * something solid (inside.h). False, with *err, for a bad points file, or if no sensor is left. */
+bool grid_sensors(arena *a, const scene *s, const study_grid *g, grid_result *out, lux_error *err);
 
 /* Runs grid g of the scene's study. False, with *err, if memory is out, a points file is bad, or
  * (ERR_INTERRUPTED) the user stopped it before there was anything to tell. */
 bool grid_run(arena *a, const scene *s, const study_grid *g, const run_options *o, grid_result *out,
               lux_error *err);
 
+/* "illuminance", "cylindrical illuminance", ... */
+const char *grid_quantity_name(study_quantity q);
+
 /* One requirement of the study against what was got. */
 typedef struct grid_requirement {
     const char *name; /* "average", ... */
     const char *unit; /* "lx" or "" */
     double asked, got;
+    double half_width; /* how far `got` may be off */
     bool met;
+    bool decided; /* whatever the truth within that: else more accuracy is needed to tell */
 } grid_requirement;
-enum { MOST_REQUIREMENTS = 3 };
+enum { MOST_REQUIREMENTS = 4 };
 int grid_requirements(const grid_result *r, grid_requirement out[MOST_REQUIREMENTS]);
 
 #endif

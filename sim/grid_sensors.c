@@ -19,7 +19,18 @@ static dvec3 normal_of(const study_grid *g, dvec3 own)
     return own;
 }
 
-static bool plane_sensors(arena *a, const study_grid *g, grid_result *out, lux_error *err)
+const char *grid_quantity_name(study_quantity q)
+{
+    static const char *const names[] = {
+        [QUANTITY_PLANAR]          = "illuminance",
+        [QUANTITY_VERTICAL]        = "vertical illuminance",
+        [QUANTITY_CYLINDRICAL]     = "cylindrical illuminance",
+        [QUANTITY_SEMICYLINDRICAL] = "semicylindrical illuminance",
+    };
+    return names[q];
+}
+
+static grid_sensor *plane_sensors(arena *a, const study_grid *g, grid_result *out, lux_error *err)
 {
     double along_u, along_v;
     study_grid_counts(g, &along_u, &along_v);
@@ -28,7 +39,7 @@ static bool plane_sensors(arena *a, const study_grid *g, grid_result *out, lux_e
     out->sensor_count    = out->columns * out->rows;
     grid_sensor *sensors = arena_array(a, grid_sensor, (size_t)out->sensor_count, err);
     if (!sensors)
-        return false;
+        return NULL;
     dvec3 n = d3_cross(g->u, g->v);
     n       = normal_of(g, d3_scale(n, 1.0 / d3_length(n)));
     for (int k = 0; k < out->sensor_count; k++) {
@@ -38,7 +49,7 @@ static bool plane_sensors(arena *a, const study_grid *g, grid_result *out, lux_e
         sensors[k] = (grid_sensor){ d3_add(g->origin, off), n };
     }
     out->sensors = sensors;
-    return true;
+    return sensors;
 }
 
 static bool point_sensors(arena *a, const study_grid *g, grid_result *out, lux_error *err)
@@ -57,8 +68,18 @@ static bool point_sensors(arena *a, const study_grid *g, grid_result *out, lux_e
     return true;
 }
 
+static bool count_cells(arena *a, grid_result *out, lux_error *err)
+{
+    int *cell = arena_array(a, int, (size_t)out->sensor_count, err);
+    for (int k = 0; cell && k < out->sensor_count; k++)
+        cell[k] = k;
+    out->cell = cell;
+    return cell != NULL;
+}
+
 /* Leaves out the sensors that lie inside something solid: nobody could put one there. */
-static bool leave_out_inside(arena *a, const scene *s, grid_result *out, lux_error *err)
+static bool leave_out_inside(arena *a, const scene *s, grid_sensor *sensors, grid_result *out,
+                             lux_error *err)
 {
     arena scratch = { 0 };
     int n         = out->sensor_count;
@@ -66,7 +87,6 @@ static bool leave_out_inside(arena *a, const scene *s, grid_result *out, lux_err
     bool *inside  = places ? arena_array(&scratch, bool, (size_t)n, err) : NULL;
     int *cell     = inside ? arena_array(a, int, (size_t)n, err) : NULL;
     if (cell) {
-        grid_sensor *kept = (grid_sensor *)out->sensors;
         for (int k = 0; k < n; k++)
             places[k] = scene_place(s, out->sensors[k].at);
         out->left_out     = inside_find(s->world, places, n, inside, &out->shell_outward);
@@ -74,8 +94,8 @@ static bool leave_out_inside(arena *a, const scene *s, grid_result *out, lux_err
         for (int k = 0; k < n; k++) {
             if (inside[k])
                 continue;
-            cell[out->sensor_count]   = k;
-            kept[out->sensor_count++] = kept[k];
+            cell[out->sensor_count]      = k;
+            sensors[out->sensor_count++] = sensors[k];
         }
         out->cell = cell;
     }
@@ -86,6 +106,12 @@ static bool leave_out_inside(arena *a, const scene *s, grid_result *out, lux_err
 bool grid_sensors(arena *a, const scene *s, const study_grid *g, grid_result *out, lux_error *err)
 {
     *out = (grid_result){ .grid = g };
-    return (g->points ? point_sensors(a, g, out, err) : plane_sensors(a, g, out, err)) &&
-           leave_out_inside(a, s, out, err);
+    if (g->points) /* each has its row, wherever it is */
+        return point_sensors(a, g, out, err) && count_cells(a, out, err);
+    grid_sensor *sensors = plane_sensors(a, g, out, err);
+    if (!sensors || !leave_out_inside(a, s, sensors, out, err))
+        return false;
+    return out->sensor_count > 0 ||
+           study_failed(s->study, g->where, err, ERR_ARGUMENT,
+                        "grid `%s`: all its sensors lie inside something solid", g->name);
 }

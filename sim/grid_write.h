@@ -7,10 +7,13 @@
 #include "sim/output.h"
 
 /* A row a sensor: x,y,z,nx,ny,nz to 12 digits, illuminance_lx,direct_lx,indirect_lx,half_width_lx
- * to 9. A run that was interrupted ends with a line "# partial: ...". */
-bool grid_write_csv(const char *path, const grid_result *r, lux_error *err);
+ * to 9, and in a layered scene NAME_lx of each group, undimmed. A run that was interrupted ends
+ * with a line "# partial: ...". */
+bool grid_write_csv(const char *path, const scene *s, const grid_result *r, lux_error *err);
 
-/* A pixel a sensor, the top row has the largest v: Y, direct.Y, indirect.Y, halfWidth.Y in lux. */
+/* A pixel a sensor, the top row has the largest v: Y, direct.Y, indirect.Y, halfWidth.Y in lux, and
+ * in a layered scene group.NAME.Y, group.NAME.direct.Y, group.NAME.halfWidth.Y of each group,
+ * undimmed. Cells without a sensor are 0 and, where there are any, leftOut.Y is 1 in them. */
 bool grid_write_exr(const char *path, const scene *s, const grid_result *r, notices *n,
                     lux_error *err);
 

@@ -50,8 +50,10 @@ lux4 *lux4_open(const char *path, lux4_error *err)
         l->notices.a = &l->a;
         l->a         = a; /* from here on, the arena is the one inside */
         l->study     = study_read(&l->a, path, NULL, &l->notices, &why);
-        l->scene =
-            l->study ? scene_new(&l->a, l->study, parallel_processors(), &l->notices, &why) : NULL;
+        l->scene     = l->study ? scene_new(&l->a, l->study,
+                                            &(scene_options){ .threads = parallel_processors() },
+                                            &l->notices, &why)
+                                : NULL;
         if (l->scene)
             return l;
         a = l->a;

@@ -10,7 +10,7 @@
 
 enum { PACKETS = PATHS / LANES };
 
-enum { FEW_LAMPS = 16 }; /* that are all asked where a path begins, if one would not do */
+enum { ASKED_LAMPS = 16 }; /* that are all asked where a path begins, if one would not do */
 
 /* Survival is never certain, so that a path ends even in a room that absorbs nothing. */
 static const float surest_survival = 0.995f;
@@ -118,8 +118,8 @@ static void load_packets(path_tracer *t, uint32_t depth)
 
 /* ---- what is found --------------------------------------------------------------------------- */
 
-/* Adds what each path of packet k found, e, of light number `light` (-1: of none). */
-static void add(path_tracer *t, bool straight, int k, vrgb e, vint light)
+/* Adds what each path of packet k found, e, of light number `which` (-1: of none). */
+static void add(path_tracer *t, bool straight, int k, vrgb e, vint which)
 {
     const scene *s  = t->s;
     path_sums *sums = straight ? &t->b->direct : &t->b->indirect;
@@ -128,7 +128,7 @@ static void add(path_tracer *t, bool straight, int k, vrgb e, vint light)
     vstore(of[1], e.y);
     vstore(of[2], e.z);
     for (int i = 0; i < LANES && k * LANES + i < t->alive; i++) {
-        int id = t->id[k * LANES + i], l = lane(light, i);
+        int id = t->id[k * LANES + i], l = lane(which, i);
         if (l < 0)
             continue;
         bool lamp     = l < s->light_count;
@@ -194,7 +194,7 @@ static void add_lights(path_tracer *t, int k, bool beginning)
 static bool asks_all_lamps(const path_tracer *t)
 {
     const scene *s = t->s;
-    return s->emitter_count == 0 && s->light_count <= FEW_LAMPS &&
+    return s->emitter_count == 0 && s->light_count <= ASKED_LAMPS &&
            (s->lights_differ || t->b->layers);
 }
 

@@ -2,7 +2,9 @@
  *
  *     L = L_emitted + rho / pi * E
  *
- * with E the irradiance of what the camera's ray meets, estimated by a path that begins there.
+ * with E the irradiance of what the camera's ray meets, estimated by a path that begins there, and
+ * L_emitted what surfaces and lamps on the way there send out by themselves. (A lamp is seen
+ * through: it is no surface.)
  */
 #include "sim/render.h"
 
@@ -10,6 +12,8 @@
 #include "core/sampler.h"
 #include "sim/accuracy.h"
 #include "sim/path.h"
+
+#include <string.h>
 
 /* What accuracy_run() averages. The luminance comes first: it is held to the accuracy. */
 enum {
@@ -24,6 +28,10 @@ enum {
     ALBEDO   = NORMAL + 3,
     CHANNELS = ALBEDO + 3,
 };
+
+/* In a layered scene the luminances of groups, which are judged as well, stand between the first
+ * and the others; behind all stand, for each group, red, green, blue and illuminance. */
+enum { OF_LAYER = 4 };
 
 enum { PACKETS = BUNDLE / LANES, TILE = 8 /* pixels a side, sampled together */ };
 _Static_assert((int)BUNDLE <= (int)PATHS, "what is asked for at once fits a path bundle");
@@ -43,8 +51,23 @@ typedef struct view_run_state {
     const run_options *o;
     camera camera;
     view_scratch *threads;
+    path_options paths;
+    int layers; /* 0 unless the scene is layered */
+    bool shows; /* some lamp can be seen */
     uint32_t seed;
 } view_run_state;
+
+/* Where the channels above begin: all but LUMINANCE. */
+static float *plain_of(const view_run_state *v, float *values)
+{
+    return values + v->layers * BUNDLE;
+}
+
+/* Red, green, blue and illuminance of a layer. */
+static float *layer_of(const view_run_state *v, float *values, int layer)
+{
+    return plain_of(v, values) + (CHANNELS + OF_LAYER * layer) * BUNDLE;
+}
 
 /* Items are pixels tile by tile, so that those sampled together see the same things. */
 static void pixel_of(const camera *c, uint32_t item, int *x, int *y)
@@ -87,12 +110,62 @@ static void trace_camera(view_run_state *v, view_scratch *w, const sample_id *id
     w->ray_count += count;
 }
 
-/* Sets out a path where each ray met something, and what is seen there besides light. */
+/* Adds light that comes straight to the eye along the rays of packet k. */
+static void add_emitted(const view_run_state *v, float *values, int k, int count, vrgb radiance,
+                        int group, float dimming)
+{
+    const vfloat channel[3] = { radiance.x, radiance.y, radiance.z };
+    for (int i = 0; i < LANES && k * LANES + i < count; i++)
+        for (int c = 0; c < 3; c++) {
+            float l = lane(channel[c], i);
+            int at  = k * LANES + i;
+            plain_of(v, values)[(RED + c) * BUNDLE + at] += dimming * l;
+            if (v->layers)
+                layer_of(v, values, group)[c * BUNDLE + at] += l;
+        }
+}
+
+/* Lamps that shine at the eye from before the surface that is seen. */
+static void add_lamps(const view_run_state *v, const view_scratch *w, float *values, int k,
+                      int count)
+{
+    const scene *s = v->s;
+    for (int l = 0; l < s->light_count; l++) {
+        const light_type *type = s->lights[l]->type;
+        vlight_hit hit;
+        if (!type->hit)
+            continue;
+        vmask seen =
+            type->hit(s->lights[l], &w->rays[k].origin, &w->rays[k].direction, w->active[k], &hit);
+        seen = seen & (hit.dist < w->hits[k].distance);
+        if (vany(seen))
+            add_emitted(v, values, k, count, vkeep3(seen, hit.radiance), s->light_info[l].group,
+                        s->light_info[l].dimming);
+    }
+}
+
+/* What of a surface is seen besides light. */
+static void note_surface(float *to, bool seen, int i, const vhit *hit, const vvec3 *n,
+                         const vrgb *albedo)
+{
+    to[SEEN * BUNDLE]         = seen;
+    to[DISTANCE * BUNDLE]     = seen ? lane(hit->distance, i) : 0.0f;
+    to[(NORMAL + 0) * BUNDLE] = seen ? lane(n->x, i) : 0.0f;
+    to[(NORMAL + 1) * BUNDLE] = seen ? lane(n->y, i) : 0.0f;
+    to[(NORMAL + 2) * BUNDLE] = seen ? lane(n->z, i) : 0.0f;
+    to[(ALBEDO + 0) * BUNDLE] = lane(albedo->x, i);
+    to[(ALBEDO + 1) * BUNDLE] = lane(albedo->y, i);
+    to[(ALBEDO + 2) * BUNDLE] = lane(albedo->z, i);
+    to[RED * BUNDLE] = to[GREEN * BUNDLE] = to[BLUE * BUNDLE] = to[ILLUMINANCE * BUNDLE] = 0.0f;
+}
+
+/* Sets out a path where each ray met something, and what is seen there besides its light. */
 static void begin_paths(view_run_state *v, view_scratch *w, const sample_id *ids, int count,
                         float *values)
 {
     path_bundle *b = &w->bundle;
     b->count       = 0;
+    memset(layer_of(v, values, 0), 0, sizeof(float) * OF_LAYER * BUNDLE * (size_t)v->layers);
     for (int k = 0; k * LANES < count; k++) {
         vmask met = w->active[k] & (w->hits[k].instance >= 0);
         vsurface at;
@@ -100,23 +173,10 @@ static void begin_paths(view_run_state *v, view_scratch *w, const sample_id *ids
         vmask back  = vdot(w->rays[k].direction, at.normal) > 0.0f;
         vvec3 n     = vselect3(back, vneg(at.normal), at.normal);
         vrgb albedo = materials_albedo(v->s->materials, at.material, met);
-        vrgb glow   = materials_emission(v->s->materials, at.material, met);
         for (int i = 0; i < LANES && k * LANES + i < count; i++) {
-            int at_sample             = k * LANES + i;
-            float *to                 = values + at_sample;
-            bool seen                 = vbits(met) >> i & 1;
-            to[SEEN * BUNDLE]         = seen;
-            to[DISTANCE * BUNDLE]     = seen ? lane(w->hits[k].distance, i) : 0.0f;
-            to[(NORMAL + 0) * BUNDLE] = seen ? lane(n.x, i) : 0.0f;
-            to[(NORMAL + 1) * BUNDLE] = seen ? lane(n.y, i) : 0.0f;
-            to[(NORMAL + 2) * BUNDLE] = seen ? lane(n.z, i) : 0.0f;
-            to[(ALBEDO + 0) * BUNDLE] = lane(albedo.x, i);
-            to[(ALBEDO + 1) * BUNDLE] = lane(albedo.y, i);
-            to[(ALBEDO + 2) * BUNDLE] = lane(albedo.z, i);
-            to[RED * BUNDLE]          = lane(glow.x, i);
-            to[GREEN * BUNDLE]        = lane(glow.y, i);
-            to[BLUE * BUNDLE]         = lane(glow.z, i);
-            to[ILLUMINANCE * BUNDLE]  = 0.0f;
+            int at_sample = k * LANES + i;
+            bool seen     = vbits(met) >> i & 1;
+            note_surface(plain_of(v, values) + at_sample, seen, i, &w->hits[k], &n, &albedo);
             if (!seen)
                 continue;
             int p           = b->count++;
@@ -127,7 +187,27 @@ static void begin_paths(view_run_state *v, view_scratch *w, const sample_id *ids
             b->index[p] = ids[at_sample].index;
             b->seed[p]  = seed_of(v, &ids[at_sample]);
         }
+        if (v->s->glows)
+            add_emitted(v, values, k, count, materials_emission(v->s->materials, at.material, met),
+                        v->s->glow_group, v->s->glow_dimming);
+        if (v->shows)
+            add_lamps(v, w, values, k, count);
     }
+}
+
+static float luminance_at(const float *rgb, int i)
+{
+    vec3 l = { rgb[i], rgb[BUNDLE + i], rgb[2 * BUNDLE + i] };
+    return (float)LUMENS_PER_WATT * rgb_luminance(l);
+}
+
+/* Adds the light that the surface seen by sample i gives back, of irradiance e on it. */
+static void add_reflected(float *rgb, float *illuminance, const float *albedo, int i,
+                          const float e[3])
+{
+    for (int c = 0; c < 3; c++)
+        rgb[c * BUNDLE + i] += 0.318309886f * albedo[c * BUNDLE + i] * e[c];
+    illuminance[i] = (float)LUMENS_PER_WATT * rgb_luminance((vec3){ e[0], e[1], e[2] });
 }
 
 static void sample_pixels(void *context, int thread, const sample_id *ids, int count, float *values)
@@ -135,23 +215,26 @@ static void sample_pixels(void *context, int thread, const sample_id *ids, int c
     view_run_state *v = context;
     view_scratch *w   = &v->threads[thread];
     path_bundle *b    = &w->bundle;
+    float *plain = plain_of(v, values), *albedo = plain + ALBEDO * BUNDLE;
     trace_camera(v, w, ids, count);
     begin_paths(v, w, ids, count, values);
-    path_trace(w->paths, b, true, !v->o->direct_only);
+    path_trace(w->paths, b, &v->paths);
 
     for (int p = 0; p < b->count; p++) {
-        float *to = values + w->sample_of[p], e[3];
-        for (int c = 0; c < 3; c++) {
-            e[c] = b->lamp[c][p] + b->glow[c][p] + b->indirect[c][p];
-            to[(RED + c) * BUNDLE] += 0.318309886f * to[(ALBEDO + c) * BUNDLE] * e[c];
+        int i      = w->sample_of[p];
+        float e[3] = { b->direct[0][p] + b->indirect[0][p], b->direct[1][p] + b->indirect[1][p],
+                       b->direct[2][p] + b->indirect[2][p] };
+        add_reflected(plain + RED * BUNDLE, plain + ILLUMINANCE * BUNDLE, albedo, i, e);
+        for (int l = 0; l < v->layers; l++) {
+            float own[3] = { b->layers[l][0][p], b->layers[l][1][p], b->layers[l][2][p] };
+            float *to    = layer_of(v, values, l);
+            add_reflected(to, to + 3 * BUNDLE, albedo, i, own);
         }
-        to[ILLUMINANCE * BUNDLE] =
-            (float)LUMENS_PER_WATT * rgb_luminance((vec3){ e[0], e[1], e[2] });
     }
     for (int i = 0; i < count; i++) {
-        vec3 rgb                       = { values[RED * BUNDLE + i], values[GREEN * BUNDLE + i],
-                                           values[BLUE * BUNDLE + i] };
-        values[LUMINANCE * BUNDLE + i] = (float)LUMENS_PER_WATT * rgb_luminance(rgb);
+        values[LUMINANCE * BUNDLE + i] = luminance_at(plain + RED * BUNDLE, i);
+        for (int l = 0; l < v->layers; l++)
+            values[(1 + l) * BUNDLE + i] = luminance_at(layer_of(v, values, l), i);
     }
 }
 
@@ -167,14 +250,42 @@ static bool make_planes(arena *a, view_result *out, lux_error *err)
         if (!*planes[i])
             return false;
     }
-    return true;
+    out->layers = arena_array(a, view_layer, (size_t)out->layer_count + 1, err);
+    for (int l = 0; out->layers && l < out->layer_count; l++) {
+        view_layer *layer = &out->layers[l];
+        float **own[]     = { &layer->radiance[0], &layer->radiance[1], &layer->radiance[2],
+                              &layer->illuminance, &layer->half_width };
+        for (size_t i = 0; i < sizeof own / sizeof *own; i++) {
+            *own[i] = arena_array(a, float, (size_t)out->width *(size_t)out->height, err);
+            if (!*own[i])
+                return false;
+        }
+    }
+    return out->layers != NULL;
+}
+
+/* The layers of pixel i, which is number `to` of the picture. */
+static void take_layers(const view_run_state *v, const accuracy_result *got, view_result *out,
+                        size_t i, size_t to)
+{
+    size_t n           = (size_t)(out->width * out->height);
+    double maintenance = v->s->study->maintenance;
+    double seen        = got->mean[(size_t)(SEEN + v->layers) * n + i];
+    for (int l = 0; l < v->layers; l++) {
+        view_layer *layer  = &out->layers[l];
+        const double *mean = got->mean + (size_t)(CHANNELS + v->layers + OF_LAYER * l) * n + i;
+        for (size_t c = 0; c < 3; c++)
+            layer->radiance[c][to] = (float)(maintenance * mean[c * n]);
+        layer->illuminance[to] = seen > 0.0 ? (float)(maintenance * mean[3 * n] / seen) : 0.0f;
+        layer->half_width[to]  = (float)(maintenance * got->half_width[(size_t)(1 + l) * n + i]);
+    }
 }
 
 static void take_pixels(const view_run_state *v, const accuracy_result *got, view_result *out)
 {
     int items          = out->width * out->height;
     double maintenance = v->s->study->maintenance;
-    const double *mean = got->mean;
+    const double *mean = got->mean + (size_t)(v->layers * items); /* as plain_of() */
     double logs = 0.0, bright = 0.0;
     for (int i = 0; i < items; i++) {
         int x, y;
@@ -193,7 +304,8 @@ static void take_pixels(const view_run_state *v, const accuracy_result *got, vie
             seen > 0.0 ? (float)(maintenance * mean[ILLUMINANCE * n + from] / seen) : 0.0f;
         out->distance[to]   = seen > 0.0 ? (float)(mean[DISTANCE * n + from] / seen) : 0.0f;
         out->half_width[to] = (float)(maintenance * got->half_width[i]);
-        double luminance    = maintenance * mean[LUMINANCE * n + from];
+        double luminance    = maintenance * got->mean[LUMINANCE * n + from];
+        take_layers(v, got, out, from, to);
         if (luminance > 0.0)
             logs += log(luminance), bright += 1.0;
     }
@@ -206,8 +318,11 @@ static bool make_threads(view_run_state *v, arena *a, lux_error *err)
 {
     v->threads = arena_array(a, view_scratch, (size_t)v->o->threads, err);
     for (int t = 0; v->threads && t < v->o->threads; t++) {
-        v->threads[t].paths = path_tracer_new(a, v->s, err);
-        if (!v->threads[t].paths)
+        view_scratch *w = &v->threads[t];
+        w->paths        = path_tracer_new(a, v->s, err);
+        if (v->layers)
+            w->bundle.layers = arena_array(a, path_sums, 2 * (size_t)v->layers, err);
+        if (!w->paths || (v->layers && !w->bundle.layers))
             return false;
     }
     return v->threads != NULL;
@@ -218,7 +333,8 @@ static bool run(arena *a, arena *scratch, view_run_state *v, view_result *out, l
     if (!make_planes(a, out, err) || !make_threads(v, scratch, err))
         return false;
     accuracy_desc d = { .items         = out->width * out->height,
-                        .channels      = CHANNELS,
+                        .channels      = CHANNELS + v->layers + OF_LAYER * v->layers,
+                        .judged        = 1 + v->layers,
                         .accuracy      = out->asked,
                         .needed        = 0.98,
                         .floor         = FLOOR_LOG_MEAN,
@@ -244,13 +360,20 @@ bool view_run(arena *a, const scene *s, const study_view *view, const run_option
     double begun     = clock_seconds();
     arena scratch    = { 0 };
     uint32_t seed    = hash_text_u32(hash_u32(~o->seed), view->name);
-    view_run_state v = { .s = s, .o = o, .seed = seed };
+    view_run_state v = { .s      = s,
+                         .o      = o,
+                         .paths  = { .lamps = true, .bounce = !o->direct_only },
+                         .layers = s->layered ? s->group_count : 0,
+                         .seed   = seed };
+    for (int l = 0; l < s->light_count; l++)
+        v.shows |= s->lights[l]->type->hit != NULL;
     if (!camera_of_view(s, view, &v.camera, err))
         return false;
-    *out = (view_result){ .view   = view,
-                          .width  = v.camera.width,
-                          .height = v.camera.height,
-                          .asked  = isnan(o->accuracy) ? VIEW_DEFAULT_PERCENT / 100.0 : o->accuracy,
+    *out = (view_result){ .view        = view,
+                          .layer_count = v.layers,
+                          .width       = v.camera.width,
+                          .height      = v.camera.height,
+                          .asked = isnan(o->accuracy) ? VIEW_DEFAULT_PERCENT / 100.0 : o->accuracy,
                           .left_to_chance = scene_left_to_chance(s, o->direct_only) };
     progress_begin(o->progress, view->name);
     bool good = run(a, &scratch, &v, out, err);

@@ -7,6 +7,11 @@
 
 enum { VIEW_DEFAULT_PERCENT = 10 };
 
+/* What one group of lamps gives, undimmed: as in view_result. */
+typedef struct view_layer {
+    float *radiance[3], *illuminance, *half_width;
+} view_layer;
+
 /* Pixel means, top row first. */
 typedef struct view_result {
     const study_view *view;
@@ -17,6 +22,9 @@ typedef struct view_result {
     float *distance;    /* m, along the ray; 0 where nothing is seen */
     float *normal[3];   /* unit, toward the eye; 0 where nothing is seen */
     float *albedo[3];
+
+    int layer_count;
+    view_layer *layers; /* of the scene's groups, if it is layered */
 
     double asked, reached;      /* accuracy: what was asked, what 98 % of the pixels have */
     double log_average;         /* cd/m^2, of the pixels that are not black */

@@ -103,11 +103,43 @@ static bool join_lights(scene_build *b, scene *s)
     s->emitter_count = (int)glowing;
     s->first_emitter = b->first_emitter;
     s->emitter_of    = b->emitter_of.items;
-    if (lamps + glowing)
-        s->tree = light_tree_new(b->a, all, (int)(lamps + glowing), b->err);
-    if (glowing)
-        s->emitter_tree = light_tree_new(b->a, all + lamps, (int)glowing, b->err);
-    return (!(lamps + glowing) || s->tree) && (!glowing || s->emitter_tree);
+    return true;
+}
+
+/* Those of one group, or all (-1), or glowing surfaces alone (-2). */
+static bool make_set(scene_build *b, const scene *s, int group, light_set *to)
+{
+    const scene_light *info = b->light_info.items;
+    size_t room             = (size_t)s->light_count + (size_t)s->emitter_count + 1;
+    int32_t *numbers        = arena_array(b->a, int32_t, room, b->err);
+    const light **lights    = numbers ? arena_array(b->a, const light *, room, b->err) : NULL;
+    if (!lights)
+        return false;
+    int count = 0;
+    for (int l = 0; group > -2 && l < s->light_count; l++)
+        if (group < 0 || info[l].group == group)
+            numbers[count++] = l;
+    to->lamps = count;
+    for (int e = 0; (group < 0 || group == s->glow_group) && e < s->emitter_count; e++)
+        numbers[count++] = s->light_count + e;
+    to->emitters = count - to->lamps;
+    to->lights   = numbers;
+    for (int i = 0; i < count; i++)
+        lights[i] = s->lights[numbers[i]];
+    if (to->emitters > 0 || to->lamps > FEW_LAMPS)
+        to->tree = light_tree_new(b->a, lights, count, b->err);
+    return to->tree || (to->emitters == 0 && to->lamps <= FEW_LAMPS);
+}
+
+static bool make_sets(scene_build *b, scene *s)
+{
+    s->set_count   = s->layered ? s->group_count : 1;
+    light_set *all = arena_array(b->a, light_set, (size_t)s->set_count + 1, b->err);
+    s->sets        = all;
+    for (int i = 0; all && i < s->set_count; i++)
+        if (!make_set(b, s, s->layered ? i : -1, &all[i]))
+            return false;
+    return all && make_set(b, s, -2, &s->glow_set);
 }
 
 /* Glowing surfaces are of the group of lights that are in none. */
@@ -195,7 +227,7 @@ const scene *scene_new(arena *a, const study *from, const scene_options *o, noti
     if (!join_lights(&b, s))
         return NULL;
     say_what_surfaces_do(&b, s);
-    if (!take_groups(&b, s))
+    if (!take_groups(&b, s) || !make_sets(&b, s))
         return NULL;
     find_clear_lights(&b, s);
     s->light_info = b.light_info.items;

@@ -37,6 +37,16 @@ typedef struct scene_light {
     bool clear;    /* nothing stands between it and any place in the room */
 } scene_light;
 
+/* Up to so many lamps are all looked at to choose one; more are chosen from by a tree. */
+enum { FEW_LAMPS = 12 };
+
+/* Lights among which one is chosen. */
+typedef struct light_set {
+    const light_tree *tree; /* over `lights`; NULL where lamps are few, and no surface glows */
+    const int32_t *lights;  /* as scene.lights counts: lamps, then emitters */
+    int lamps, emitters;
+} light_set;
+
 typedef struct scene_camera {
     const char *name;
     transform place; /* to the user's frame; looks along -z, +y up */
@@ -58,8 +68,9 @@ typedef struct scene {
     int emitter_count;          /* triangles of glowing surfaces */
     const light *const *lights; /* lamps, then emitters */
     const scene_light *light_info;
-    const light_tree *tree;         /* over all of lights; NULL: there are none */
-    const light_tree *emitter_tree; /* over emitters, numbered from 0; NULL: there are none */
+    const light_set *sets; /* of each group if the scene is layered, else one of all */
+    int set_count;
+    light_set glow_set;           /* glowing surfaces alone */
     const int64_t *first_emitter; /* of an instance: where its triangles begin in emitter_of; -1 */
     const int32_t *emitter_of;    /* the emitter that a triangle is, or -1 */
     bool lights_differ;           /* in colour: then luminance does not tell all of a mixture */

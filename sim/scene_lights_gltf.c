@@ -62,10 +62,14 @@ static const photometry *web_of(gltf_work *w)
         if (earlier[i].profile &&
             (earlier[i].profile == l->photometry_path || earlier[i].profile == l->photometry_bytes))
             return earlier[i].web;
-    return l->photometry_path
-               ? photometry_read(w->b->a, l->photometry_path, w->b->notices, w->b->err)
-               : photometry_parse(w->b->a, l->photometry_name, l->photometry_bytes,
-                                  l->photometry_size, w->b->notices, w->b->err);
+    if (l->photometry_bytes)
+        return photometry_parse(w->b->a, l->photometry_name, l->photometry_bytes,
+                                l->photometry_size, w->b->notices, w->b->err);
+    lux_error why         = { 0 };
+    const photometry *web = photometry_read(w->b->a, l->photometry_path, w->b->notices, &why);
+    if (!web && why.code == ERR_IO) /* the scene names what is not there */
+        return failed(w->b->err, ERR_IO, "%s: %s", l->photometry_name, why.text);
+    return web ? web : failed(w->b->err, why.code, "%s", why.text);
 }
 
 static const light *make_measured(gltf_work *w)

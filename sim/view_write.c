@@ -5,10 +5,16 @@
 #include "sim/render.h"
 #include "sim/tone.h"
 
-bool view_write_exr(const char *path, const scene *s, const view_result *r, bool half, notices *n,
-                    lux_error *err)
+#include <stdio.h>
+#include <string.h>
+
+enum { PLAIN_CHANNELS = 12, LAYER_CHANNELS = 5 };
+
+/* "group.NAME.R" and so on, with names in a; NULL if memory is out. */
+static image_channel *channels_of(arena *a, const scene *s, const view_result *r, int *count,
+                                  lux_error *err)
 {
-    image_channel channels[] = {
+    const image_channel plain[PLAIN_CHANNELS] = {
         { "R", r->radiance[0] },          { "G", r->radiance[1] },
         { "B", r->radiance[2] },          { "illuminance.Y", r->illuminance },
         { "halfWidth.Y", r->half_width }, { "Z", r->distance },
@@ -16,6 +22,35 @@ bool view_write_exr(const char *path, const scene *s, const view_result *r, bool
         { "normal.Z", r->normal[2] },     { "albedo.R", r->albedo[0] },
         { "albedo.G", r->albedo[1] },     { "albedo.B", r->albedo[2] },
     };
+    static const char *const names[LAYER_CHANNELS] = { "R", "G", "B", "illuminance.Y",
+                                                       "halfWidth.Y" };
+    size_t room        = PLAIN_CHANNELS + LAYER_CHANNELS * (size_t)r->layer_count;
+    image_channel *all = arena_array(a, image_channel, room, err);
+    *count             = PLAIN_CHANNELS;
+    if (all)
+        memcpy(all, plain, sizeof plain);
+    for (int l = 0; all && l < r->layer_count; l++) {
+        const view_layer *layer = &r->layers[l];
+        float *values[]         = { layer->radiance[0], layer->radiance[1], layer->radiance[2],
+                                    layer->illuminance, layer->half_width };
+        for (int c = 0; c < LAYER_CHANNELS; c++) {
+            size_t bytes = strlen(s->groups[l]) + strlen(names[c]) + sizeof "group..";
+            char *name   = arena_array(a, char, bytes, err);
+            if (!name)
+                return NULL;
+            snprintf(name, bytes, "group.%s.%s", s->groups[l], names[c]);
+            all[(*count)++] = (image_channel){ name, values[c] };
+        }
+    }
+    return all;
+}
+
+bool view_write_exr(const char *path, const scene *s, const view_result *r, bool half, notices *n,
+                    lux_error *err)
+{
+    arena scratch = { 0 };
+    int channel_count;
+    image_channel *channels      = channels_of(&scratch, s, r, &channel_count, err);
     image_attribute attributes[] = {
         { "whiteLuminance", ATTRIBUTE_FLOAT, NULL, (float)LUMENS_PER_WATT },
         { "lux4:accuracy", ATTRIBUTE_FLOAT, NULL, (float)r->asked },
@@ -32,11 +67,13 @@ bool view_write_exr(const char *path, const scene *s, const view_result *r, bool
     int count = sizeof attributes / sizeof *attributes;
     image im  = { .width           = r->width,
                   .height          = r->height,
-                  .channel_count   = sizeof channels / sizeof *channels,
+                  .channel_count   = channel_count,
                   .channels        = channels,
                   .attribute_count = r->end == RUN_INTERRUPTED ? count : count - 1,
                   .attributes      = attributes };
-    return image_write_exr(path, &im, half, n, err);
+    bool good = channels && image_write_exr(path, &im, half, n, err);
+    arena_clear(&scratch);
+    return good;
 }
 
 bool view_write_png(const char *path, const view_result *r, double exposure_ev, lux_error *err)

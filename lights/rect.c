@@ -236,14 +236,14 @@ const light *light_rect(arena *a, const rect_desc *d, lux_error *err)
 {
     dvec3 n     = d3_from(d->aim);
     double size = d3_length(n);
-    if (!(size > 0.0 && size < INFINITY))
+    if (!(size > 0.0 && size < HUGE_VAL))
         return failed(err, ERR_ARGUMENT, "rect light: the aim has no length");
     n            = d3_scale(n, 1.0 / size);
     dvec3 up     = d3_from(d->up);
     double long_ = d3_length(up);
     up           = d3_sub(up, d3_scale(n, d3_dot(up, n)));
     double high  = d3_length(up);
-    if (!(high > 1e-6 * long_ && long_ < INFINITY))
+    if (!(high > 1e-6 * long_ && long_ < HUGE_VAL))
         return failed(err, ERR_ARGUMENT, "rect light: up has no length or lies along the aim");
     if (!(d->width > 0.0f && d->width < INFINITY && d->height > 0.0f && d->height < INFINITY))
         return failed(err, ERR_ARGUMENT, "rect light: a side is not > 0 m");

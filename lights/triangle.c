@@ -206,7 +206,7 @@ const light *light_triangle(arena *a, const triangle_desc *d, lux_error *err)
     dvec3 side  = d3_sub(corner[1], corner[0]);
     dvec3 n     = d3_cross(side, d3_sub(corner[2], corner[0]));
     double area = d3_length(n);
-    if (!(0.5 * area >= (double)FLT_MIN && area < INFINITY))
+    if (!(0.5 * area >= (double)FLT_MIN && area < HUGE_VAL))
         return failed(err, ERR_ARGUMENT, "triangle light: it has no area");
     if (!v3_nonnegative(d->radiance))
         return failed(err, ERR_ARGUMENT, "triangle light: a radiance is not >= 0 W/(sr m^2)");

@@ -31,7 +31,7 @@
 
 /* Distance in units of `reach` from which the quadrature is used: its error, of the order of
  * 0.01 (size / distance)^6 of the value, is then as small as the rounding of Lambert's sum. */
-static const float FAR = 8.0f;
+static const float FAR = 5.0f;
 
 /* The largest float below pi. */
 static const float BELOW_PI = 3.14159250f;
@@ -64,10 +64,15 @@ static edge cut(edge e, vfloat fa, vfloat fb)
                    vselect(stays, e.by, y), in | stays };
 }
 
-/* t: twice the area of the edge and the foot, > 0 if that is to the left. */
+/* t: twice the area of the edge and the foot, > 0 if that is to the left; by the nearer end, of
+ * which the vector from the foot has more digits: next to a corner both of its edges agree. */
 static vfloat turn_of(const edge *e, vvec3 place)
 {
-    return (e->ax - place.x) * (e->by - e->ay) - (e->ay - place.y) * (e->bx - e->ax);
+    vfloat ax = e->ax - place.x, ay = e->ay - place.y;
+    vfloat bx = e->bx - place.x, by = e->by - place.y;
+    vmask a_nearer = ax * ax + ay * ay < bx * bx + by * by;
+    return vselect(a_nearer, ax, bx) * (e->by - e->ay) -
+           vselect(a_nearer, ay, by) * (e->bx - e->ax);
 }
 
 /* Edges need no order: each is cut by itself, and the one along the horizon goes from where the
@@ -102,15 +107,25 @@ static outline cut_at_horizon(const polygon *g, vvec3 place, vvec3 n)
     return o;
 }
 
-/* What an edge adds along the plane, of which n takes (ny dx - nx dy), and square to it, without
- * its sign. */
-static vfloat edge_terms(const edge *e, vvec3 place, vfloat turn, vfloat *square)
+/* theta - theta0, for ab = a . b in the plane, c = |c|, lift = |c| - t and t >= 0. */
+static vfloat tilt_of(vfloat ab, vfloat c, vfloat lift, vfloat t, vfloat h2)
+{
+    return vatan2(ab * lift - t * h2, c * t + ab * (ab + h2));
+}
+
+static vfloat dot_of(const edge *e, vvec3 place)
+{
+    return (e->ax - place.x) * (e->bx - place.x) + (e->ay - place.y) * (e->by - place.y);
+}
+
+/* What an edge of the polygon adds along the plane, to be multiplied by h, and square to it. */
+static void edge_terms(const edge *e, vvec3 place, vvec3 n, vfloat *along, vfloat *square)
 {
     vfloat dx    = e->bx - e->ax;
     vfloat dy    = e->by - e->ay;
-    vfloat h     = place.z;
-    vfloat ab    = (e->ax - place.x) * (e->bx - place.x) + (e->ay - place.y) * (e->by - place.y);
-    vfloat h2    = h * h;
+    vfloat h2    = place.z * place.z;
+    vfloat ab    = dot_of(e, place);
+    vfloat turn  = turn_of(e, place);
     vfloat t     = vabs(turn);
     vfloat rise  = h2 * (dx * dx + dy * dy);
     vfloat c     = vsqrt(t * t + rise);
@@ -118,27 +133,36 @@ static vfloat edge_terms(const edge *e, vvec3 place, vfloat turn, vfloat *square
     vfloat inv   = vkeep(some, 1.0f / c);
     vfloat lift  = vkeep(some, rise / (c + t));
     vfloat theta = vatan2(c, ab + h2);
-    vfloat tilt  = vatan2(ab * lift - t * h2, c * t + ab * (ab + h2)); /* theta - theta0 */
-    *square      = vkeep(some, tilt - theta * lift * inv);
-    return theta * inv;
+    vfloat off   = vkeep(some, tilt_of(ab, c, lift, t, h2) - theta * lift * inv);
+    *along       = *along + theta * inv * (n.y * dx - n.x * dy);
+    *square      = *square + vselect(turn < 0.0f, -off, off);
+}
+
+/* The edge along the horizon, whose c is along n: all of its angle counts. Of that, what the sum of
+ * theta0 has of it is |n_z| theta0. Its length is known well, its place (if it passes close by the
+ * foot) is not: t = |n_z| |c| and |c| = h |b - a| / sqrt(n_x^2 + n_y^2) do without. */
+static vfloat horizon_term(const edge *e, vvec3 place, vvec3 n)
+{
+    vfloat dx     = e->bx - e->ax;
+    vfloat dy     = e->by - e->ay;
+    vfloat h2     = place.z * place.z;
+    vfloat across = n.x * n.x + n.y * n.y;
+    vfloat up     = vabs(n.z);
+    vfloat c      = place.z * vsqrt((dx * dx + dy * dy) / across);
+    vfloat ab     = dot_of(e, place);
+    vfloat rest   = across / (1.0f + up); /* 1 - |n_z| */
+    vfloat theta  = vatan2(c, ab + h2);
+    vfloat tilt   = tilt_of(ab, c, c * rest, c * up, h2);
+    return vkeep(e->present & (across > 0.0f), rest * theta + up * tilt);
 }
 
 static vfloat lambert_sum(const outline *o, vvec3 place, vvec3 n)
 {
     vfloat along = vsplat(0.0f), square = vsplat(0.0f);
-    for (int i = 0; i < o->count; i++) {
-        const edge *e = &o->edges[i];
-        vfloat dx     = e->bx - e->ax;
-        vfloat dy     = e->by - e->ay;
-        vfloat turn   = turn_of(e, place);
-
-        /* Of a short edge along the horizon the turn is but rounding: the foot tells its sign */
-        vfloat sign = i + 1 < o->count ? turn : -n.z;
-        vfloat off;
-        along  = along + edge_terms(e, place, turn, &off) * (n.y * dx - n.x * dy);
-        square = square + vselect(sign < 0.0f, -off, off);
-    }
-    return 0.5f * place.z * along - n.z * (vkeep(o->inside, vsplat(WARP_PI)) + 0.5f * square);
+    for (int i = 0; i + 1 < o->count; i++)
+        edge_terms(&o->edges[i], place, n, &along, &square);
+    vfloat turns = 2.0f * vkeep(o->inside, vsplat(WARP_PI)) + square;
+    return 0.5f * (place.z * along + horizon_term(&o->edges[o->count - 1], place, n) - n.z * turns);
 }
 
 /* (n . v) / |v|^4 over the triangle of an edge and (px, py), from the centroid. */

@@ -152,33 +152,33 @@ static int cell_of(const flat_twin *f, dvec3 at)
 {
     dvec3 e = d3_sub(f->corner[1], f->corner[0]);
     dvec3 g = d3_sub(f->corner[f->corners - 1], f->corner[0]), o = d3_sub(at, f->corner[0]);
-    dvec3 c     = d3_cross(e, g);
-    double c2   = d3_dot(c, c);
-    double x    = d3_dot(d3_cross(o, g), c) / c2, y = d3_dot(d3_cross(e, o), c) / c2;
-    int column  = (int)fmin(fmax(x * ROWS, 0.0), ROWS - 1);
-    int row     = (int)fmin(fmax(y * ROWS, 0.0), ROWS - 1);
+    dvec3 c   = d3_cross(e, g);
+    double c2 = d3_dot(c, c);
+    double x = d3_dot(d3_cross(o, g), c) / c2, y = d3_dot(d3_cross(e, o), c) / c2;
+    int column = (int)fmin(fmax(x * ROWS, 0.0), ROWS - 1);
+    int row    = (int)fmin(fmax(y * ROWS, 0.0), ROWS - 1);
     return row * ROWS + column;
 }
 
-/* The solid angle of a cell times a pdf even in solid angle: of a part of f, by the twin's tetrahedra
- * (Van Oosterom & Strackee 1983). */
+/* The solid angle of a cell times a pdf even in solid angle: of a part of f, by the twin's
+ * tetrahedra (Van Oosterom & Strackee 1983). */
 static double solid_angle(dvec3 a, dvec3 b, dvec3 c)
 {
     double ra = d3_length(a), rb = d3_length(b), rc = d3_length(c);
     double up = fabs(d3_dot(a, d3_cross(b, c)));
-    return 2.0 * atan2(up, ra * rb * rc + d3_dot(a, b) * rc + d3_dot(b, c) * ra +
-                               d3_dot(c, a) * rb);
+    return 2.0 *
+           atan2(up, ra * rb * rc + d3_dot(a, b) * rc + d3_dot(b, c) * ra + d3_dot(c, a) * rb);
 }
 
 /* The share of samples in each cell: its part of the whole solid angle. */
 static void expect_cells(const flat_twin *f, dvec3 p, double *expected)
 {
-    dvec3 e = d3_scale(d3_sub(f->corner[1], f->corner[0]), 1.0 / ROWS);
-    dvec3 g = d3_scale(d3_sub(f->corner[f->corners - 1], f->corner[0]), 1.0 / ROWS);
+    dvec3 e    = d3_scale(d3_sub(f->corner[1], f->corner[0]), 1.0 / ROWS);
+    dvec3 g    = d3_scale(d3_sub(f->corner[f->corners - 1], f->corner[0]), 1.0 / ROWS);
     double sum = 0.0;
     for (int i = 0; i < ROWS * ROWS; i++) {
         int x = i % ROWS, y = i / ROWS;
-        dvec3 at = d3_sub(d3_add(f->corner[0], d3_add(d3_scale(e, x), d3_scale(g, y))), p);
+        dvec3 at    = d3_sub(d3_add(f->corner[0], d3_add(d3_scale(e, x), d3_scale(g, y))), p);
         dvec3 right = d3_add(at, e), up = d3_add(at, g);
         bool whole = f->corners == 4 || x + y < ROWS - 1, part = whole || x + y == ROWS - 1;
         expected[i] = (part ? solid_angle(at, right, up) : 0.0) +
@@ -200,15 +200,16 @@ double light_follows_its_pdf(const light *l, const flat_twin *f, dvec3 p)
         count[i] = 0;
     for (int k = 0; k < SHOTS; k += LANES) {
         vuint seed = vhash(vunsigned(vlane_index() + k)); /* independent, not stratified */
-        vfloat s = vto_float(vsigned(seed >> 8)) * 0x1p-24f;
-        vfloat t = vto_float(vsigned(vhash(seed + 7) >> 8)) * 0x1p-24f;
+        vfloat s   = vto_float(vsigned(seed >> 8)) * 0x1p-24f;
+        vfloat t   = vto_float(vsigned(vhash(seed + 7) >> 8)) * 0x1p-24f;
         vlight_sample q;
         vlight_hit hit;
         vmask lit = light_sample(l, &place, s, t, ALL_LANES, &q);
         vmask met = l->type->hit(l, &place, &q.wi, lit, &hit);
         assert_true(vall(lit));
         for (int i = 0; i < LANES; i++) {
-            dvec3 wi = { (double)lane(q.wi.x, i), (double)lane(q.wi.y, i), (double)lane(q.wi.z, i) };
+            dvec3 wi = { (double)lane(q.wi.x, i), (double)lane(q.wi.y, i),
+                         (double)lane(q.wi.z, i) };
             count[cell_of(f, d3_add(p, d3_scale(wi, (double)lane(q.dist, i))))]++;
             if (vbits(met) >> i & 1) {
                 assert_near(lane(hit.pdf, i), lane(q.pdf, i), 2e-5);

@@ -64,15 +64,28 @@ static edge cut(edge e, vfloat fa, vfloat fb)
                    vselect(stays, e.by, y), in | stays };
 }
 
-/* t: twice the area of the edge and the foot, > 0 if that is to the left; by the nearer end, of
- * which the vector from the foot has more digits: next to a corner both of its edges agree. */
-static vfloat turn_of(const edge *e, vvec3 place)
+/* An end of an edge from the foot. Right above a corner it is taken to be next to it: both of its
+ * edges must agree to which side. */
+typedef struct end {
+    vfloat x, y;
+} end;
+
+static end end_of(vfloat x, vfloat y, vvec3 place)
 {
-    vfloat ax = e->ax - place.x, ay = e->ay - place.y;
-    vfloat bx = e->bx - place.x, by = e->by - place.y;
-    vmask a_nearer = ax * ax + ay * ay < bx * bx + by * by;
-    return vselect(a_nearer, ax, bx) * (e->by - e->ay) -
-           vselect(a_nearer, ay, by) * (e->bx - e->ax);
+    const float beside = 1e-18f; /* m */
+    end a              = { x - place.x, y - place.y };
+    vmask at           = (a.x == 0.0f) & (a.y == 0.0f);
+    a.x                = vselect(at, vsplat(beside), a.x);
+    return a;
+}
+
+/* t: twice the area of the edge and the foot, > 0 if that is to the left; by the nearer end, which
+ * has more digits. */
+static vfloat turn_of(const edge *e, end a, end b)
+{
+    vmask a_nearer = a.x * a.x + a.y * a.y < b.x * b.x + b.y * b.y;
+    return vselect(a_nearer, a.x, b.x) * (e->by - e->ay) -
+           vselect(a_nearer, a.y, b.y) * (e->bx - e->ax);
 }
 
 /* Edges need no order: each is cut by itself, and the one along the horizon goes from where the
@@ -89,7 +102,7 @@ static outline cut_at_horizon(const polygon *g, vvec3 place, vvec3 n)
         vfloat fa = n.x * e.ax + n.y * e.ay - middle;
         vfloat fb = n.x * e.bx + n.y * e.by - middle;
         o.whole &= fa >= 0.0f;
-        o.inside &= turn_of(&e, place) >= 0.0f;
+        o.inside &= turn_of(&e, end_of(e.ax, e.ay, place), end_of(e.bx, e.by, place)) >= 0.0f;
 
         vmask down = (fa >= 0.0f) & ~(fb >= 0.0f);
         vmask up   = ~(fa >= 0.0f) & (fb >= 0.0f);
@@ -113,19 +126,16 @@ static vfloat tilt_of(vfloat ab, vfloat c, vfloat lift, vfloat t, vfloat h2)
     return vatan2(ab * lift - t * h2, c * t + ab * (ab + h2));
 }
 
-static vfloat dot_of(const edge *e, vvec3 place)
-{
-    return (e->ax - place.x) * (e->bx - place.x) + (e->ay - place.y) * (e->by - place.y);
-}
-
 /* What an edge of the polygon adds along the plane, to be multiplied by h, and square to it. */
 static void edge_terms(const edge *e, vvec3 place, vvec3 n, vfloat *along, vfloat *square)
 {
     vfloat dx    = e->bx - e->ax;
     vfloat dy    = e->by - e->ay;
     vfloat h2    = place.z * place.z;
-    vfloat ab    = dot_of(e, place);
-    vfloat turn  = turn_of(e, place);
+    end a        = end_of(e->ax, e->ay, place);
+    end b        = end_of(e->bx, e->by, place);
+    vfloat ab    = a.x * b.x + a.y * b.y;
+    vfloat turn  = turn_of(e, a, b);
     vfloat t     = vabs(turn);
     vfloat rise  = h2 * (dx * dx + dy * dy);
     vfloat c     = vsqrt(t * t + rise);
@@ -149,7 +159,7 @@ static vfloat horizon_term(const edge *e, vvec3 place, vvec3 n)
     vfloat across = n.x * n.x + n.y * n.y;
     vfloat up     = vabs(n.z);
     vfloat c      = place.z * vsqrt((dx * dx + dy * dy) / across);
-    vfloat ab     = dot_of(e, place);
+    vfloat ab     = (e->ax - place.x) * (e->bx - place.x) + (e->ay - place.y) * (e->by - place.y);
     vfloat rest   = across / (1.0f + up); /* 1 - |n_z| */
     vfloat theta  = vatan2(c, ab + h2);
     vfloat tilt   = tilt_of(ab, c, c * rest, c * up, h2);

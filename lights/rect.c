@@ -92,18 +92,17 @@ static view look(const rect_light *l, vvec3 place, vmask active)
     return v;
 }
 
-/* (cos A - s0 s1)^2 - (e0 e1)^2 by its factors. Where both of the angles that s0 and s1 are the
- * sines of are about the same the first is (sin b^2 - sin A^2) / (cos A + cos b), b their
- * difference; where A is about pi, so that they are about +-pi/2, cos A - s0 s1 is a difference of
- * what 1 + cos A and 1 + s0 s1 are by squares of small numbers. */
+/* (cos A - s0 s1)^2 - (e0 e1)^2 by its factors, that of the difference b of the angles with the
+ * sines s0 and s1 as (sin b^2 - sin A^2) / (cos A + cos b) where b is acute. Where cos A and s0 s1
+ * are about 1, or -1, they differ by what they lack, which squares of small numbers tell. */
 static vfloat radicand(vfloat sin_a, vfloat cos_a, vfloat sin_b, vfloat ss, vfloat e0, vfloat e1)
 {
     vfloat ee    = e0 * e1;
     vfloat cos_b = ss + ee;
-    vfloat e2    = e0 * e0 + e1 * e1 - ee * ee;
-    vmask obtuse = (cos_a < 0.0f) & (ss < 0.0f);
-    vfloat small = sin_a * sin_a / (1.0f - cos_a) - e2 / (1.0f - ss);
-    vfloat gap   = vselect(obtuse, small, cos_a - ss);
+    vfloat e2    = e0 * e0 + e1 * e1 - ee * ee; /* 1 - (s0 s1)^2 */
+    vfloat lacks = e2 / (1.0f + vabs(ss)) - sin_a * sin_a / (1.0f + vabs(cos_a));
+    vfloat alike = vselect(ss < 0.0f, -lacks, lacks);
+    vfloat gap   = vselect(cos_a * ss > 0.0f, alike, cos_a - ss);
     vfloat acute = (sin_b - sin_a) * (sin_b + sin_a) / (cos_a + cos_b);
     return vselect(cos_b > 0.0f, acute, gap - ee) * (gap + ee);
 }
@@ -135,14 +134,22 @@ static vfloat place_x(const view *v, vfloat s)
     return vmin(vmax(x, v->x0), v->x1);
 }
 
-/* y by solid angle, t of the strip at x below it. */
+/* y by solid angle, t of the strip at x below it: s of the sine is even. Where all of the strip is
+ * to one side its sines may all be about 1; then 1 - |s| is what keeps digits. */
 static vfloat place_y(const view *v, vfloat x, vfloat t)
 {
     vfloat d2 = x * x + v->h * v->h;
-    vfloat s0 = v->y0 / vsqrt(v->y0 * v->y0 + d2);
-    vfloat s1 = v->y1 / vsqrt(v->y1 * v->y1 + d2);
+    vfloat w0 = 1.0f / vsqrt(v->y0 * v->y0 + d2);
+    vfloat w1 = 1.0f / vsqrt(v->y1 * v->y1 + d2);
+    vfloat s0 = v->y0 * w0, s1 = v->y1 * w1;
+    vfloat m0 = d2 * (w0 * w0) / (1.0f + vabs(s0));
+    vfloat m1 = d2 * (w1 * w1) / (1.0f + vabs(s1));
     vfloat s  = s0 + t * (s1 - s0);
-    vfloat y  = s * vsqrt(d2 / vmax(1.0f - s * s, vsplat(FLT_MIN)));
+    vfloat m  = m0 + t * (m1 - m0);
+
+    vmask aside = v->y0 * v->y1 > 0.0f;
+    vfloat cos2 = vselect(aside, m * (2.0f - m), 1.0f - s * s);
+    vfloat y    = s * vsqrt(d2 / vmax(cos2, vsplat(FLT_MIN)));
     return vmin(vmax(y, v->y0), v->y1);
 }
 

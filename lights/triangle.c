@@ -32,7 +32,7 @@ typedef struct triangle_light {
 /* Close by above or below it (of the height, in units of `reach`) corners are all but opposite to
  * each other, and where arcs between them run is lost: directions even on the hemisphere take their
  * place, of which those that miss give nothing. Not if there were too many of those (sr). */
-static const float CLOSE = 0.01f, CLOSE_ANGLE = 0.5f;
+static const float CLOSE = 0.001f, CLOSE_ANGLE = 1.0f;
 
 /* The triangle as seen from points; z is toward its plane, from either side. */
 typedef struct view {

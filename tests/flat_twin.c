@@ -50,7 +50,7 @@ double twin_irradiance(const flat_twin *f, dvec3 p, dvec3 n)
     }
     double sum = 0.0;
     for (int i = 0; i < count; i++) {
-        dvec3 a = v[i], b = v[(i + 1) % count], c = d3_cross(a, b);
+        dvec3 a = v[i], b = v[(i + 1) % count], c = d3_cross(a, d3_sub(b, a));
         double length = d3_length(c);
         if (length > 0.0)
             sum += atan2(length, d3_dot(a, b)) * d3_dot(c, n) / length;

@@ -105,8 +105,12 @@ dvec3 twin_direction(uint32_t *state)
     return (dvec3){ r * cos(turn), r * sin(turn), z };
 }
 
-/* What floats are made of it. */
-static dvec3 rounded(dvec3 a) { return d3_from(d3_to_float(a)); }
+/* Volatile, since gcc 12 at -O2 takes a vector's way to float and back for none. */
+dvec3 twin_rounded(dvec3 a)
+{
+    volatile float x = (float)a.x, y = (float)a.y, z = (float)a.z;
+    return (dvec3){ (double)x, (double)y, (double)z };
+}
 
 void twin_place(const flat_twin *f, double near_, double far, uint32_t *state, dvec3 *p, dvec3 *n)
 {
@@ -115,8 +119,8 @@ void twin_place(const flat_twin *f, double near_, double far, uint32_t *state, d
         dvec3 w  = twin_direction(state);
         if (!f->two_sided && d3_dot(w, twin_normal(f)) < 0.0)
             w = d3_scale(w, -1.0);
-        *p = rounded(d3_add(twin_centre(f), d3_scale(w, d)));
-        *n = rounded(twin_direction(state));
+        *p = twin_rounded(d3_add(twin_centre(f), d3_scale(w, d)));
+        *n = twin_rounded(twin_direction(state));
     } while (twin_irradiance(f, *p, *n) == 0.0);
 }
 

@@ -31,12 +31,13 @@
 
 /* Distance in units of `reach` from which the quadrature is used: its error, of the order of
  * 0.01 (size / distance)^6 of the value, is then as small as the rounding of Lambert's sum. */
-static const float FAR = 8.0f;
+static const float FAR = 5.0f;
 
 /* The largest float below pi. */
 static const float BELOW_PI = 3.14159250f;
 
-/* An edge, or what of it is above the horizon; seen from the foot of the point. */
+/* An edge, or what of it is above the horizon; from the centroid, so that its length keeps its
+ * digits however far the point is. */
 typedef struct edge {
     vfloat ax, ay, bx, by;
     vmask present;
@@ -63,21 +64,45 @@ static edge cut(edge e, vfloat fa, vfloat fb)
                    vselect(stays, e.by, y), in | stays };
 }
 
+/* An end of an edge from the foot. Right above a corner it is taken to be next to it: both of its
+ * edges must agree to which side. */
+typedef struct end {
+    vfloat x, y;
+} end;
+
+static end end_of(vfloat x, vfloat y, vvec3 place)
+{
+    const float beside = 1e-18f; /* m */
+    end a              = { x - place.x, y - place.y };
+    vmask at           = (a.x == 0.0f) & (a.y == 0.0f);
+    a.x                = vselect(at, vsplat(beside), a.x);
+    return a;
+}
+
+/* t: twice the area of the edge and the foot, > 0 if that is to the left; by the nearer end, which
+ * has more digits. */
+static vfloat turn_of(const edge *e, end a, end b)
+{
+    vmask a_nearer = a.x * a.x + a.y * a.y < b.x * b.x + b.y * b.y;
+    return vselect(a_nearer, a.x, b.x) * (e->by - e->ay) -
+           vselect(a_nearer, a.y, b.y) * (e->bx - e->ax);
+}
+
 /* Edges need no order: each is cut by itself, and the one along the horizon goes from where the
  * outline sinks below it to where it rises. */
 static outline cut_at_horizon(const polygon *g, vvec3 place, vvec3 n)
 {
     outline o    = { .count = g->corners + 1, .whole = ALL_LANES, .inside = ALL_LANES };
-    edge horizon = { .present = { 0 } };
+    edge horizon = { 0 };
     vmask rises = { 0 }, sinks = { 0 };
+    vfloat middle = vdot(n, place);
     for (int i = 0; i < g->corners; i++) {
-        int k     = i + 1 < g->corners ? i + 1 : 0;
-        edge e    = { g->x[i] - place.x, g->y[i] - place.y, g->x[k] - place.x, g->y[k] - place.y,
-                      ALL_LANES };
-        vfloat fa = n.x * e.ax + n.y * e.ay - n.z * place.z;
-        vfloat fb = n.x * e.bx + n.y * e.by - n.z * place.z;
+        int k  = i + 1 < g->corners ? i + 1 : 0;
+        edge e = { vsplat(g->x[i]), vsplat(g->y[i]), vsplat(g->x[k]), vsplat(g->y[k]), ALL_LANES };
+        vfloat fa = n.x * e.ax + n.y * e.ay - middle;
+        vfloat fb = n.x * e.bx + n.y * e.by - middle;
         o.whole &= fa >= 0.0f;
-        o.inside &= e.ax * (e.by - e.ay) - e.ay * (e.bx - e.ax) >= 0.0f;
+        o.inside &= turn_of(&e, end_of(e.ax, e.ay, place), end_of(e.bx, e.by, place)) >= 0.0f;
 
         vmask down = (fa >= 0.0f) & ~(fb >= 0.0f);
         vmask up   = ~(fa >= 0.0f) & (fb >= 0.0f);
@@ -95,14 +120,22 @@ static outline cut_at_horizon(const polygon *g, vvec3 place, vvec3 n)
     return o;
 }
 
-/* What an edge adds along the plane, of which n takes (ny dx - nx dy), and square to it, without
- * its sign. */
-static vfloat edge_terms(const edge *e, vfloat h, vfloat turn, vfloat *square)
+/* theta - theta0, for ab = a . b in the plane, c = |c|, lift = |c| - t and t >= 0. */
+static vfloat tilt_of(vfloat ab, vfloat c, vfloat lift, vfloat t, vfloat h2)
+{
+    return vatan2(ab * lift - t * h2, c * t + ab * (ab + h2));
+}
+
+/* What an edge of the polygon adds along the plane, to be multiplied by h, and square to it. */
+static void edge_terms(const edge *e, vvec3 place, vvec3 n, vfloat *along, vfloat *square)
 {
     vfloat dx    = e->bx - e->ax;
     vfloat dy    = e->by - e->ay;
-    vfloat ab    = e->ax * e->bx + e->ay * e->by;
-    vfloat h2    = h * h;
+    vfloat h2    = place.z * place.z;
+    end a        = end_of(e->ax, e->ay, place);
+    end b        = end_of(e->bx, e->by, place);
+    vfloat ab    = a.x * b.x + a.y * b.y;
+    vfloat turn  = turn_of(e, a, b);
     vfloat t     = vabs(turn);
     vfloat rise  = h2 * (dx * dx + dy * dy);
     vfloat c     = vsqrt(t * t + rise);
@@ -110,31 +143,40 @@ static vfloat edge_terms(const edge *e, vfloat h, vfloat turn, vfloat *square)
     vfloat inv   = vkeep(some, 1.0f / c);
     vfloat lift  = vkeep(some, rise / (c + t));
     vfloat theta = vatan2(c, ab + h2);
-    vfloat tilt  = vatan2(ab * lift - t * h2, c * t + ab * (ab + h2)); /* theta - theta0 */
-    *square      = vkeep(some, tilt - theta * lift * inv);
-    return theta * inv;
+    vfloat off   = vkeep(some, tilt_of(ab, c, lift, t, h2) - theta * lift * inv);
+    *along       = *along + theta * inv * (n.y * dx - n.x * dy);
+    *square      = *square + vselect(turn < 0.0f, -off, off);
 }
 
-static vfloat lambert_sum(const outline *o, vfloat h, vvec3 n)
+/* The edge along the horizon, whose c is along n: all of its angle counts. Of that, what the sum of
+ * theta0 has of it is |n_z| theta0. Its length is known well, its place (if it passes close by the
+ * foot) is not: t = |n_z| |c| and |c| = h |b - a| / sqrt(n_x^2 + n_y^2) do without. */
+static vfloat horizon_term(const edge *e, vvec3 place, vvec3 n)
+{
+    vfloat dx     = e->bx - e->ax;
+    vfloat dy     = e->by - e->ay;
+    vfloat h2     = place.z * place.z;
+    vfloat across = n.x * n.x + n.y * n.y;
+    vfloat up     = vabs(n.z);
+    vfloat c      = place.z * vsqrt((dx * dx + dy * dy) / across);
+    vfloat ab     = (e->ax - place.x) * (e->bx - place.x) + (e->ay - place.y) * (e->by - place.y);
+    vfloat rest   = across / (1.0f + up); /* 1 - |n_z| */
+    vfloat theta  = vatan2(c, ab + h2);
+    vfloat tilt   = tilt_of(ab, c, c * rest, c * up, h2);
+    return vkeep(e->present & (across > 0.0f), rest * theta + up * tilt);
+}
+
+static vfloat lambert_sum(const outline *o, vvec3 place, vvec3 n)
 {
     vfloat along = vsplat(0.0f), square = vsplat(0.0f);
-    for (int i = 0; i < o->count; i++) {
-        const edge *e = &o->edges[i];
-        vfloat dx     = e->bx - e->ax;
-        vfloat dy     = e->by - e->ay;
-        vfloat turn   = e->ax * dy - e->ay * dx;
-
-        /* Of a short edge along the horizon the turn is but rounding: the foot tells its sign */
-        vfloat sign = i + 1 < o->count ? turn : -n.z;
-        vfloat off;
-        along  = along + edge_terms(e, h, turn, &off) * (n.y * dx - n.x * dy);
-        square = square + vselect(sign < 0.0f, -off, off);
-    }
-    return 0.5f * h * along - n.z * (vkeep(o->inside, vsplat(WARP_PI)) + 0.5f * square);
+    for (int i = 0; i + 1 < o->count; i++)
+        edge_terms(&o->edges[i], place, n, &along, &square);
+    vfloat turns = 2.0f * vkeep(o->inside, vsplat(WARP_PI)) + square;
+    return 0.5f * (place.z * along + horizon_term(&o->edges[o->count - 1], place, n) - n.z * turns);
 }
 
-/* h (n . v) / |v|^4 over the triangle of a place (px, py) and an edge, over h. */
-static vfloat triangle_sum(const edge *e, vfloat px, vfloat py, vfloat h, vvec3 n)
+/* (n . v) / |v|^4 over the triangle of an edge and (px, py), from the centroid. */
+static vfloat triangle_sum(const edge *e, vfloat px, vfloat py, vvec3 place, vvec3 n)
 {
     static const float at[7][3] = {
         { 0.333333333f, 0.333333333f, 0.225f },
@@ -149,24 +191,24 @@ static vfloat triangle_sum(const edge *e, vfloat px, vfloat py, vfloat h, vvec3 
     vfloat bx = e->bx - px, by = e->by - py;
     vfloat sum = vsplat(0.0f);
     for (int i = 0; i < 7; i++) {
-        vfloat x  = px + at[i][0] * ax + at[i][1] * bx;
-        vfloat y  = py + at[i][0] * ay + at[i][1] * by;
-        vfloat r2 = x * x + y * y + h * h;
-        vfloat f  = n.x * x + n.y * y - n.z * h;
-        sum       = sum + at[i][2] * f / (r2 * r2);
+        vvec3 v   = { px + at[i][0] * ax + at[i][1] * bx, py + at[i][0] * ay + at[i][1] * by,
+                      vsplat(0.0f) };
+        vvec3 to  = vsub(v, place);
+        vfloat r2 = vdot(to, to);
+        sum       = sum + at[i][2] * vdot(n, to) / (r2 * r2);
     }
     return vkeep(e->present, sum * (0.5f * (ax * by - ay * bx)));
 }
 
-/* The place is the centroid, or one on the horizon. */
+/* The place shared by the triangles is the centroid, or one on the horizon. */
 static vfloat quadrature(const outline *o, vvec3 place, vvec3 n)
 {
     const edge *horizon = &o->edges[o->count - 1];
-    vfloat px           = vselect(horizon->present, horizon->ax, -place.x);
-    vfloat py           = vselect(horizon->present, horizon->ay, -place.y);
+    vfloat px           = vkeep(horizon->present, horizon->ax);
+    vfloat py           = vkeep(horizon->present, horizon->ay);
     vfloat sum          = vsplat(0.0f);
     for (int i = 0; i + 1 < o->count; i++)
-        sum = sum + triangle_sum(&o->edges[i], px, py, place.z, n);
+        sum = sum + triangle_sum(&o->edges[i], px, py, place, n);
     return sum * place.z;
 }
 
@@ -177,7 +219,7 @@ vfloat vpolygon_irradiance(const polygon *g, vvec3 place, vvec3 n)
     vmask lit = (place.z > 0.0f) & (o.whole | o.edges[g->corners].present);
     vfloat e  = vsplat(0.0f);
     if (vany(lit & ~far))
-        e = lambert_sum(&o, place.z, n);
+        e = lambert_sum(&o, place, n);
     if (vany(lit & far))
         e = vselect(far, quadrature(&o, place, n), e);
     return vkeep(lit, vmin(vmax(e, vsplat(0.0f)), vsplat(BELOW_PI)));
@@ -226,12 +268,15 @@ vmask vpolygon_as_point(const polygon *g, vvec3 place, vec3 radiance, int sides,
     out->e    = vkeep3(lit, vscale(vspread(radiance), share));
     out->pdf  = vkeep(lit, vsplat(INFINITY));
 
-    const float rounding = 2e-6f; /* relative, of all these products and of what they approximate */
+    /* Of the height, in units of the distance, and of what follows */
+    const float rounding = 1e-6f;
+    vfloat inv_d2        = inv_d * inv_d;
     vfloat near_         = d / (d - g->reach);
     vfloat near5         = near_ * near_ * (near_ * near_) * near_;
     vfloat first         = 0.5f * g->deviation * inv_d;
-    vfloat second        = 6.0f * g->moment * (inv_d * inv_d) * near5;
-    vfloat bound         = rgb_luminance(radiance) * share * (first + second + rounding);
+    vfloat second        = 6.0f * g->moment * inv_d2 * near5;
+    vfloat off           = share * (first + second) + rounding * g->area * inv_d2;
+    vfloat bound         = rgb_luminance(radiance) * off;
     *error               = vkeep(lit, vselect(d >= 4.0f * g->reach, bound, vsplat(INFINITY)));
     return lit;
 }
@@ -276,14 +321,23 @@ static void measure(polygon *g, const dvec3 *at)
     g->deviation = (float)sqrt(mean + half);
 }
 
+/* As a float has it. Volatile, since gcc 12 at -O2 takes a vector's way to float and back for none.
+ */
+static double rounded(double a)
+{
+    volatile float f = (float)a;
+    return (double)f;
+}
+
 void polygon_make(polygon *g, const dvec3 *corner, int corners, dvec3 v, dvec3 n)
 {
     dvec3 u = d3_cross(v, n), centre = { 0 }, at[POLYGON_CORNERS];
     for (int i = 0; i < corners; i++) /* of rectangles and triangles, the centroid */
         centre = d3_add(centre, d3_scale(corner[i], 1.0 / corners));
+    centre    = (dvec3){ rounded(centre.x), rounded(centre.y), rounded(centre.z) };
     g->centre = d3_to_float(centre);
     for (int i = 0; i < corners; i++) { /* from the centre as rounded: corners stay in place */
-        dvec3 off = d3_sub(corner[i], d3_from(g->centre));
+        dvec3 off = d3_sub(corner[i], centre);
         at[i]     = (dvec3){ d3_dot(off, u), d3_dot(off, v), 0.0 };
     }
     g->u       = d3_to_float(u);

@@ -17,6 +17,7 @@
  * (Van Oosterom & Strackee 1983), of which nothing cancels however small it is.
  */
 #include "core/color.h"
+#include "core/warp.h"
 #include "lights/polygon.h"
 
 #include <float.h>
@@ -27,19 +28,49 @@ typedef struct rect_light {
     vec3 radiance; /* W/(sr m^2) */
 } rect_light;
 
-/* sr. Below it, places are even in area: cos A - s0 s1 - e0 e1 is of the order of S and has the
- * rounding of 1; at this size 2e-4 of it is lost, and the pdf by area varies by a few percent. */
-static const float BY_AREA = 5e-4f;
+/* sr. Below it, places are even in area: of x by solid angle the rounding of 1 in sin A is lost, as
+ * much as 1e-3 of the width here, and the pdf by area varies by 1 %. */
+static const float BY_AREA = 1e-4f;
+
+/* sr. Above it, the solid angle is the sum of four arcs. */
+static const float WIDE = 1.0f;
 
 /* The rectangle as seen from points. */
 typedef struct view {
-    vfloat x0, x1, y0, y1, h; /* m, from the foot; the height */
-    vfloat r00, r01;          /* m, to the corners (x0, y0) and (x0, y1) */
-    vfloat angle;             /* sr, > 0 in lit lanes */
+    vfloat x0, x1, y0, y1, h;  /* m, from the foot; the height */
+    vfloat r00, r01, r10, r11; /* m, to the corners (x0, y0), (x0, y1), (x1, y0), (x1, y1) */
+    vfloat angle;              /* sr, > 0 in lit lanes */
     vmask lit;
 } view;
 
 static vfloat hypot3(vfloat x, vfloat y, vfloat h) { return vsqrt(x * x + y * y + h * h); }
+
+/* The solid angle by its triangles 00 10 11 and 00 11 01. */
+static vfloat by_triangles(const view *v, vfloat area)
+{
+    vfloat xx = v->x0 * v->x1, yy = v->y0 * v->y1, h2 = v->h * v->h;
+    vfloat cross = v->r00 * v->r11 + (xx + yy + h2);
+    vfloat low =
+        v->r10 * cross + (xx + v->y0 * v->y0 + h2) * v->r11 + (v->x1 * v->x1 + yy + h2) * v->r00;
+    vfloat high =
+        v->r01 * cross + (xx + v->y1 * v->y1 + h2) * v->r00 + (v->x0 * v->x0 + yy + h2) * v->r11;
+    vfloat volume = v->h * area;
+    return 2.0f * vatan2(volume * (low + high), low * high - volume * volume);
+}
+
+/* The sum of the angles atan(x y / (h r)) of the corners, each a complex number, about that of
+ * by_triangles(): to a rounding of pi where that one, close by above an edge, has lost digits. */
+static vfloat by_corners(const view *v, vfloat about)
+{
+    vfloat r0 = v->h * v->r00, i0 = v->x0 * v->y0;
+    vfloat r1 = v->h * v->r11, i1 = v->x1 * v->y1;
+    vfloat r2 = v->h * v->r01, i2 = -v->x0 * v->y1;
+    vfloat r3 = v->h * v->r10, i3 = -v->x1 * v->y0;
+    vfloat ra = r0 * r1 - i0 * i1, ia = r0 * i1 + i0 * r1;
+    vfloat rb = r2 * r3 - i2 * i3, ib = r2 * i3 + i2 * r3;
+    vfloat angle = vatan2(ra * ib + ia * rb, ra * rb - ia * ib);
+    return angle + vkeep(about - angle > WARP_PI, vsplat(2.0f * WARP_PI));
+}
 
 static view look(const rect_light *l, vvec3 place, vmask active)
 {
@@ -49,23 +80,31 @@ static view look(const rect_light *l, vvec3 place, vmask active)
                          .y0 = g->y[0] - place.y,
                          .y1 = g->y[2] - place.y,
                          .h  = place.z };
-    vfloat h2        = v.h * v.h;
     v.r00            = hypot3(v.x0, v.y0, v.h);
     v.r01            = hypot3(v.x0, v.y1, v.h);
-    vfloat r10       = hypot3(v.x1, v.y0, v.h);
-    vfloat r11       = hypot3(v.x1, v.y1, v.h);
-
-    /* The triangles 00 10 11 and 00 11 01: the denominators of their tangents */
-    vfloat diagonal = v.x0 * v.x1 + v.y0 * v.y1 + h2;
-    vfloat cross    = v.r00 * r11 + diagonal;
-    vfloat low      = r10 * cross + (v.x0 * v.x1 + v.y0 * v.y0 + h2) * r11 +
-                 (v.x1 * v.x1 + v.y0 * v.y1 + h2) * v.r00;
-    vfloat high = v.r01 * cross + (v.x0 * v.x1 + v.y1 * v.y1 + h2) * v.r00 +
-                  (v.x0 * v.x0 + v.y0 * v.y1 + h2) * r11;
-    vfloat volume = v.h * g->area;
-    v.angle       = 2.0f * vatan2(volume * (low + high), low * high - volume * volume);
-    v.lit         = active & (v.h > 0.0f) & (v.angle > 0.0f);
+    v.r10            = hypot3(v.x1, v.y0, v.h);
+    v.r11            = hypot3(v.x1, v.y1, v.h);
+    v.angle          = by_triangles(&v, vsplat(g->area));
+    v.lit            = active & (v.h > 0.0f) & (v.angle > 0.0f);
+    vmask wide       = v.lit & (v.angle > WIDE);
+    if (vany(wide))
+        v.angle = vselect(wide, by_corners(&v, v.angle), v.angle);
     return v;
+}
+
+/* (cos A - s0 s1)^2 - (e0 e1)^2 by its factors, that of the difference b of the angles with the
+ * sines s0 and s1 as (sin b^2 - sin A^2) / (cos A + cos b) where b is acute. Where cos A and s0 s1
+ * are about 1, or -1, they differ by what they lack, which squares of small numbers tell. */
+static vfloat radicand(vfloat sin_a, vfloat cos_a, vfloat sin_b, vfloat ss, vfloat e0, vfloat e1)
+{
+    vfloat ee    = e0 * e1;
+    vfloat cos_b = ss + ee;
+    vfloat e2    = e0 * e0 + e1 * e1 - ee * ee; /* 1 - (s0 s1)^2 */
+    vfloat lacks = e2 / (1.0f + vabs(ss)) - sin_a * sin_a / (1.0f + vabs(cos_a));
+    vfloat alike = vselect(ss < 0.0f, -lacks, lacks);
+    vfloat gap   = vselect(cos_a * ss > 0.0f, alike, cos_a - ss);
+    vfloat acute = (sin_b - sin_a) * (sin_b + sin_a) / (cos_a + cos_b);
+    return vselect(cos_b > 0.0f, acute, gap - ee) * (gap + ee);
 }
 
 /* x by solid angle, s of it to the left. */
@@ -74,31 +113,43 @@ static vfloat place_x(const view *v, vfloat s)
     vfloat h  = v->h;
     vfloat w0 = 1.0f / vsqrt(v->y0 * v->y0 + h * h);
     vfloat w1 = 1.0f / vsqrt(v->y1 * v->y1 + h * h);
-    vfloat ss = (v->y0 * w0) * (v->y1 * w1);
-    vfloat ee = (h * w0) * (h * w1);
+    vfloat ww = w0 * w1;
+    vfloat yy = v->y0 * v->y1;
 
     /* A(x0), from its parts asin(c s1) and asin(c s0) */
-    vfloat scale = w0 * w1 / (v->x0 * v->x0 + h * h);
-    vfloat sin_0 = v->x0 * h * (v->y1 * v->r00 - v->y0 * v->r01) * scale;
-    vfloat cos_0 = (h * h * (v->r00 * v->r01) + v->x0 * v->x0 * (v->y0 * v->y1)) * scale;
+    vfloat d2    = v->x0 * v->x0 + h * h;
+    vfloat below = v->y0 * v->r01, above = v->y1 * v->r00;
+    vfloat apart = vselect(yy > 0.0f, (v->y1 - v->y0) * (v->y1 + v->y0) / (above + below),
+                           (above - below) / d2);
+    vfloat sin_0 = v->x0 * h * apart * ww;
+    vfloat cos_0 = (h * h * (v->r00 * v->r01) + v->x0 * v->x0 * yy) * ww / d2;
 
     vfloat step  = s * v->angle;
     vfloat sin_s = vsin(step), cos_s = vcos(step);
     vfloat sin_a = sin_0 * cos_s + cos_0 * sin_s;
     vfloat cos_a = cos_0 * cos_s - sin_0 * sin_s;
-    vfloat root2 = (cos_a - ss - ee) * (cos_a - ss + ee);
+    vfloat sin_b = h * (v->y1 - v->y0) * ww;
+    vfloat root2 = radicand(sin_a, cos_a, sin_b, yy * ww, h * w0, h * w1);
     vfloat x     = h * sin_a / vsqrt(vmax(root2, vsplat(FLT_MIN)));
     return vmin(vmax(x, v->x0), v->x1);
 }
 
-/* y by solid angle, t of the strip at x below it. */
+/* y by solid angle, t of the strip at x below it: s of the sine is even. Where all of the strip is
+ * to one side its sines may all be about 1; then 1 - |s| is what keeps digits. */
 static vfloat place_y(const view *v, vfloat x, vfloat t)
 {
     vfloat d2 = x * x + v->h * v->h;
-    vfloat s0 = v->y0 / vsqrt(v->y0 * v->y0 + d2);
-    vfloat s1 = v->y1 / vsqrt(v->y1 * v->y1 + d2);
+    vfloat w0 = 1.0f / vsqrt(v->y0 * v->y0 + d2);
+    vfloat w1 = 1.0f / vsqrt(v->y1 * v->y1 + d2);
+    vfloat s0 = v->y0 * w0, s1 = v->y1 * w1;
+    vfloat m0 = d2 * (w0 * w0) / (1.0f + vabs(s0));
+    vfloat m1 = d2 * (w1 * w1) / (1.0f + vabs(s1));
     vfloat s  = s0 + t * (s1 - s0);
-    vfloat y  = s * vsqrt(d2 / vmax(1.0f - s * s, vsplat(FLT_MIN)));
+    vfloat m  = m0 + t * (m1 - m0);
+
+    vmask aside = v->y0 * v->y1 > 0.0f;
+    vfloat cos2 = vselect(aside, m * (2.0f - m), 1.0f - s * s);
+    vfloat y    = s * vsqrt(d2 / vmax(cos2, vsplat(FLT_MIN)));
     return vmin(vmax(y, v->y0), v->y1);
 }
 
@@ -159,7 +210,7 @@ static vrgb rect_irradiance(const light *self, const vvec3 *p, const vvec3 *n, v
     return vscale(vspread(l->radiance), vkeep(active, e));
 }
 
-/* No less than the irradiance: the solid angle, by the cosine of what is highest. */
+/* The solid angle, by the cosine of what of the corners and the centre is highest. */
 static vfloat rect_weight(const light *self, const vvec3 *p, const vvec3 *n, vmask active)
 {
     const rect_light *l = (const rect_light *)self;
@@ -236,14 +287,14 @@ const light *light_rect(arena *a, const rect_desc *d, lux_error *err)
 {
     dvec3 n     = d3_from(d->aim);
     double size = d3_length(n);
-    if (!(size > 0.0 && size < INFINITY))
+    if (!(size > 0.0 && size < HUGE_VAL))
         return failed(err, ERR_ARGUMENT, "rect light: the aim has no length");
     n            = d3_scale(n, 1.0 / size);
     dvec3 up     = d3_from(d->up);
     double long_ = d3_length(up);
     up           = d3_sub(up, d3_scale(n, d3_dot(up, n)));
     double high  = d3_length(up);
-    if (!(high > 1e-6 * long_ && long_ < INFINITY))
+    if (!(high > 1e-6 * long_ && long_ < HUGE_VAL))
         return failed(err, ERR_ARGUMENT, "rect light: up has no length or lies along the aim");
     if (!(d->width > 0.0f && d->width < INFINITY && d->height > 0.0f && d->height < INFINITY))
         return failed(err, ERR_ARGUMENT, "rect light: a side is not > 0 m");

@@ -3,7 +3,7 @@
  *
  * Sampled evenly in solid angle (the map of Arvo, "Stratified Sampling of Spherical Triangles",
  * SIGGRAPH 1995, in tangents of half angles, of which nothing cancels: slivers and triangles far
- * away keep their digits, and need no other sampling). Seen from the point, the corners are a, b,
+ * away keep their digits, and need no sampling by area). Seen from the point, the corners are a, b,
  * c, and S is the solid angle (Van Oosterom & Strackee 1983):
  *
  *     tan(S/2) = h 2 area / (|a||b||c| + (a.b)|c| + (b.c)|a| + (c.a)|b|)
@@ -18,6 +18,7 @@
  * x c.
  */
 #include "core/color.h"
+#include "core/warp.h"
 #include "lights/polygon.h"
 
 #include <float.h>
@@ -28,6 +29,11 @@ typedef struct triangle_light {
     vec3 radiance; /* W/(sr m^2) */
 } triangle_light;
 
+/* Close by above or below it (of the height, in units of `reach`) corners are all but opposite to
+ * each other, and where arcs between them run is lost: directions even on the hemisphere take their
+ * place, of which those that miss give nothing. Not if there were too many of those (sr). */
+static const float CLOSE = 0.001f, CLOSE_ANGLE = 1.0f;
+
 /* The triangle as seen from points; z is toward its plane, from either side. */
 typedef struct view {
     vvec3 a, b, c;     /* m, from the point to the corners */
@@ -35,6 +41,7 @@ typedef struct view {
     vfloat ab, bc, ca; /* m^2, dot products */
     vfloat volume;     /* m^3, six times that of the tetrahedron */
     vfloat half;       /* sr, half the solid angle; > 0 in lit lanes */
+    vmask close;       /* sampled as the hemisphere is */
     vmask lit;
 } view;
 
@@ -54,6 +61,7 @@ static view look(const triangle_light *l, vvec3 place, vmask active)
     v.volume         = h * (2.0f * g->area);
     v.half           = vatan2(v.volume, v.ra * v.rb * rc + v.ab * rc + v.bc * v.ra + v.ca * v.rb);
     v.lit            = active & (h > 0.0f) & (v.half > 0.0f);
+    v.close          = (h < CLOSE * g->reach) & (v.half > 0.5f * CLOSE_ANGLE);
     return v;
 }
 
@@ -89,6 +97,25 @@ static vvec3 pick(const view *v, vfloat s, vfloat t)
     return valong(v->b, to_q, along(v->rb * v->rb, bq, cross_bq, tan_p));
 }
 
+/* Whether a place of the plane, seen from the foot, is of the triangle. */
+static vmask contains(const view *v, vvec3 at)
+{
+    const vvec3 corner[3] = { v->a, v->b, v->c };
+    vmask within          = ALL_LANES;
+    for (int i = 0; i < 3; i++) {
+        vvec3 from = corner[i];
+        vvec3 side = vsub(corner[i < 2 ? i + 1 : 0], from);
+        within &= side.x * (at.y - from.y) - side.y * (at.x - from.x) >= 0.0f;
+    }
+    return within;
+}
+
+/* 1/sr */
+static vfloat density(const view *v)
+{
+    return vselect(v->close, vsplat(0.5f / WARP_PI), 0.5f / v->half);
+}
+
 static vmask triangle_sample(const light *self, const vvec3 *p, vfloat s, vfloat t, vmask active,
                              vlight_sample *out)
 {
@@ -96,18 +123,23 @@ static vmask triangle_sample(const light *self, const vvec3 *p, vfloat s, vfloat
     vvec3 place             = vpolygon_place(&l->shape, p);
     view v                  = look(l, place, active);
     vvec3 at                = pick(&v, s, t);
-    vvec3 to                = { at.x, at.y, -place.z };
-    vfloat r                = vlength(to);
-    vfloat angle            = 2.0f * v.half;
+    vmask lit               = v.lit;
+    if (vany(v.lit & v.close)) {
+        vvec3 w = vwarp_sphere(0.5f * s, t); /* z > 0 */
+        at      = vselect3(v.close, vscale(w, v.a.z / w.z), at);
+        lit &= ~v.close | contains(&v, at);
+    }
+    vvec3 to   = { at.x, at.y, -place.z };
+    vfloat r   = vlength(to);
+    vfloat pdf = density(&v);
 
-    out->wi   = vkeep3(v.lit, vpolygon_turn_back(&l->shape, vscale(to, 1.0f / r)));
-    out->dist = vkeep(v.lit, r);
-    out->e    = vkeep3(v.lit, vscale(vspread(l->radiance), angle));
-    out->pdf  = vkeep(v.lit, 1.0f / angle);
-    return v.lit;
+    out->wi   = vkeep3(lit, vpolygon_turn_back(&l->shape, vscale(to, 1.0f / r)));
+    out->dist = vkeep(lit, r);
+    out->e    = vkeep3(lit, vscale(vspread(l->radiance), 1.0f / pdf));
+    out->pdf  = vkeep(lit, pdf);
+    return lit;
 }
 
-/* Rays that meet it in floats only by an edge may still be told to: within a rounding of it. */
 static vmask triangle_hit(const light *self, const vvec3 *p, const vvec3 *wi, vmask active,
                           vlight_hit *out)
 {
@@ -116,18 +148,11 @@ static vmask triangle_hit(const light *self, const vvec3 *p, const vvec3 *wi, vm
     vvec3 w                 = vpolygon_turn(&l->shape, *wi);
     view v                  = look(l, place, active);
     vfloat r                = -place.z / w.z;
-    vvec3 at                = { w.x * r, w.y * r, vsplat(0.0f) };
-    const vvec3 corner[3]   = { v.a, v.b, v.c };
+    vmask met               = v.lit & (r > 0.0f) & (r < INFINITY) & contains(&v, vscale(w, r));
 
-    vmask met = v.lit & (r > 0.0f) & (r < INFINITY);
-    for (int i = 0; i < 3; i++) {
-        vvec3 from = corner[i];
-        vvec3 side = vsub(corner[i < 2 ? i + 1 : 0], from);
-        met &= side.x * (at.y - from.y) - side.y * (at.x - from.x) >= 0.0f;
-    }
     out->dist     = vkeep(met, r);
     out->radiance = vkeep3(met, vspread(l->radiance));
-    out->pdf      = vkeep(met, 0.5f / v.half);
+    out->pdf      = vkeep(met, density(&v));
     return met;
 }
 
@@ -146,7 +171,7 @@ static vrgb triangle_irradiance(const light *self, const vvec3 *p, const vvec3 *
     return vscale(vspread(l->radiance), vkeep(active, e));
 }
 
-/* No less than the irradiance: the solid angle, by the cosine of what is highest. */
+/* The solid angle, by the cosine of what of the corners and the centroid is highest. */
 static vfloat triangle_weight(const light *self, const vvec3 *p, const vvec3 *n, vmask active)
 {
     const triangle_light *l = (const triangle_light *)self;
@@ -206,7 +231,7 @@ const light *light_triangle(arena *a, const triangle_desc *d, lux_error *err)
     dvec3 side  = d3_sub(corner[1], corner[0]);
     dvec3 n     = d3_cross(side, d3_sub(corner[2], corner[0]));
     double area = d3_length(n);
-    if (!(0.5 * area >= (double)FLT_MIN && area < INFINITY))
+    if (!(0.5 * area >= (double)FLT_MIN && area < HUGE_VAL))
         return failed(err, ERR_ARGUMENT, "triangle light: it has no area");
     if (!v3_nonnegative(d->radiance))
         return failed(err, ERR_ARGUMENT, "triangle light: a radiance is not >= 0 W/(sr m^2)");

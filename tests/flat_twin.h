@@ -1,0 +1,46 @@
+/* tests/flat_twin.h -- the light of flat polygons in double precision, one point at a time. */
+#ifndef TESTS_FLAT_TWIN_H
+#define TESTS_FLAT_TWIN_H
+
+#include "core/transform.h"
+#include "lights/light.h"
+
+/* A convex polygon of radiance 1, counter-clockwise about the side that shines. */
+typedef struct flat_twin {
+    dvec3 corner[4];
+    int corners;
+    bool two_sided;
+} flat_twin;
+
+dvec3 twin_centre(const flat_twin *f);
+double twin_size(const flat_twin *f); /* m, the widest */
+
+/* Irradiance at p with unit normal n: the polygon clipped at the horizon, then Lambert's sum. */
+double twin_irradiance(const flat_twin *f, dvec3 p, dvec3 n);
+
+/* The same by the midpoint rule, on side x side cells of the two triangles or the one. */
+double twin_quadrature(const flat_twin *f, dvec3 p, dvec3 n, int side);
+
+/* The irradiance of a surface at p that faces the centre. */
+double twin_facing(const flat_twin *f, dvec3 p);
+
+/* Even numbers in [0,1), by a hash of the count. */
+double twin_random(uint32_t *state);
+dvec3 twin_direction(uint32_t *state);
+
+/* A place from which the light is seen, at `near_` to `far` sizes from its centre, and a direction
+ * of any kind, not wholly below the horizon of which the light is. */
+void twin_place(const flat_twin *f, double near_, double far, uint32_t *state, dvec3 *p, dvec3 *n);
+
+/* What a light of radiance 1 in all channels gives, in the packet's first lane or, if they differ
+ * between lanes, a failed test. */
+double light_closed_form(const light *l, dvec3 p, dvec3 n);
+
+/* The mean over `count` samples of vsobol4, stratified. */
+double light_sampled(const light *l, dvec3 p, dvec3 n, int count, uint32_t seed);
+
+/* The probability that samples seen from p follow the pdf of hit(), by chi-square over cells of an
+ * even map of all directions; pdfs of samples and hits, and the places of both, are compared. */
+double light_follows_its_pdf(const light *l, const flat_twin *f, dvec3 p);
+
+#endif

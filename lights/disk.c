@@ -205,9 +205,9 @@ static vfloat vlog1p(vfloat f)
 /* The part of the rim above the horizon of the receiver, from the angle f0 - h to f0 + h. Angles
  * are counted about the disk's centre, from the direction of the point's offset. */
 typedef struct varc {
-    vfloat half;         /* rad: h, pi for all of it */
+    vfloat half;         /* rad: h */
     vfloat cos_f, sin_f; /* of f0 */
-    vfloat cos_h, sin_h; /* of h; of pi exactly */
+    vfloat cos_h, sin_h; /* of h */
 } varc;
 
 /* An end of the arc, at the angle f: what it takes where it is next to the point, too. Rounding
@@ -272,7 +272,7 @@ static vfloat contour(const disk_light *l, const vellipse *e, vvec3 n, varc a)
                    n.z * (to.y * from.x - to.x * from.y);
     cross         = vselect(e->r1 > l->radius, 2.0f * l->radius * a.sin_h * ahead, cross);
     vfloat scalar = from.x * to.x + from.y * to.y + e->z * e->z;
-    vfloat chord  = vkeep(a.sin_h > 0.0f, vatan2(cross, scalar));
+    vfloat chord  = vatan2(cross, scalar);
     return 0.5f * (chord - (n.x * x + n.y * y + n.z * z));
 }
 
@@ -312,21 +312,27 @@ static vrgb disk_irradiance(const light *self, const vvec3 *p, const vvec3 *norm
     vfloat level  = vsqrt(n.x * n.x + n.y * n.y);
     vfloat rise   = l->radius * level;
     vfloat middle = -(n.x * e.d + n.z * e.z);
-    vmask whole   = middle >= rise;
     vmask lit     = e.lit & (middle > -rise);
-    vmask tilted  = level > 0.0f;
+    vmask cut     = lit & (middle < rise);
 
-    varc a;
-    a.cos_h = vselect(whole, vsplat(-1.0f), vmax(-middle / rise, vsplat(-1.0f)));
-    a.sin_h = vkeep(~whole, vsqrt(vmax((1.0f - a.cos_h) * (1.0f + a.cos_h), vsplat(0.0f))));
-    a.half  = vselect(whole, vsplat(PI), vatan2(a.sin_h, a.cos_h));
-    a.cos_f = vselect(tilted, n.x / level, vsplat(1.0f));
-    a.sin_f = vkeep(tilted, n.y / level);
+    /* All of it: h = pi, T = 0 and no chord */
+    vfloat sum   = e.r1 + e.r2;
+    vfloat x     = l->radius * e.z * (4.0f * l->radius * e.d / (sum * sum));
+    vfloat share = -PI * (n.x * x + n.z * (0.5f * e.s_plus)) / e.s;
+    if (vany(cut)) {
+        varc a;
+        a.cos_h = -middle / rise;
+        a.sin_h = vsqrt(vmax((1.0f - a.cos_h) * (1.0f + a.cos_h), vsplat(0.0f)));
+        a.half  = vatan2(a.sin_h, a.cos_h);
+        a.cos_f = n.x / level;
+        a.sin_f = n.y / level;
 
-    vfloat r2    = e.d * e.d + e.z * e.z;
-    vmask far    = ~whole & (r2 > FAR * FAR * l->radius * l->radius);
-    vfloat share = vselect(far, contour_far(l, &e, rise, r2, a), contour(l, &e, n, a));
-    share        = vmin(vmax(share, vsplat(0.0f)), vsplat(PI));
+        vfloat r2   = e.d * e.d + e.z * e.z;
+        vmask far   = r2 > FAR * FAR * l->radius * l->radius;
+        vfloat part = vselect(far, contour_far(l, &e, rise, r2, a), contour(l, &e, n, a));
+        share       = vselect(cut, part, share);
+    }
+    share = vmin(vmax(share, vsplat(0.0f)), vsplat(PI));
     return vscale(vspread(l->radiance), vkeep(lit, share));
 }
 

@@ -75,7 +75,7 @@ MAKEFLAGS += --no-builtin-rules --no-print-directory
 Q         := $(if $V,,@)
 .DELETE_ON_ERROR:
 .SECONDARY:
-.PHONY: all check check-long tests demo bench bench-programs bench-deps deps fuzz fuzzers install layers \
+.PHONY: all check check-long tests demo bench bench-lights bench-programs bench-deps deps fuzz fuzzers install layers \
         format format-check clean help FORCE
 
 ## all: the library and the program (what plain `make` does)
@@ -113,6 +113,14 @@ $(PLUG): $(SHIM) $B/flags
 	@mkdir -p $(@D); echo "SO   $@"
 	$Q$(CXX) $(CPPFLAGS) $(PLUGIN_CFLAGS) $(CXXFLAGS) -fPIC -shared $(LDFLAGS) $< $(PLUGIN_LIBS) -o $@
 
+# The lights as plain scalar C, once with the arithmetic of the x87
+PLAIN_LIGHTS := $B/tests/bench/plain_lights.o $B/tests/bench/plain_lights_387.o
+$B/tests/bench/bench_lights: $(PLAIN_LIGHTS)
+$B/tests/bench/plain_lights_387.o: private X87 := -mfpmath=387 -DPLAIN_387
+$(PLAIN_LIGHTS): tests/bench/plain_lights.c $B/flags
+	@mkdir -p $(@D); echo "CC   $< $(X87)"
+	$Q$(CC) $(CPPFLAGS) $(CFLAGS) -fno-tree-vectorize -fno-tree-slp-vectorize $(X87) -c $< -o $@
+
 $B/%.c.o: %.c $B/flags
 	@mkdir -p $(@D); echo "CC   $<"
 	$Q$(CC) $(CPPFLAGS) $(CFLAGS) -c $< -o $@
@@ -128,7 +136,7 @@ $B/flags $B/links: FORCE
 	@mkdir -p $(@D); echo '$(subst ','\'',$(TELL))' | cmp -s - $@ || echo '$(subst ','\'',$(TELL))' > $@
 
 -include $(patsubst %,$B/%.d,$(SRC:=) $(AIDS) sim/main.c) $(addsuffix .c.d,$(TESTS) $(LONG) $(BENCH) $(FUZZERS))
--include $(PLUG:.so=.d) $(OFFICE:.o=.d)
+-include $(PLUG:.so=.d) $(OFFICE:.o=.d) $(PLAIN_LIGHTS:.o=.d)
 
 # What is missing is installed for check and demo, which set a machine up; else it is named.
 build/pkg.mk: Makefile
@@ -169,6 +177,13 @@ bench: bench-deps build/bench/office-65000.glb build/bench/office-270000.glb
 	  for b in $(BENCH:$B/%=%); do build/$(KIND)-4/$$b build/$(KIND)-1/$$b; done; } | tee -a build/bench.log
 
 bench-programs: $(BENCH)
+
+## bench-lights: nanoseconds a point of each kind of light, beside plain C; appended to build/bench.log
+bench-lights:
+	$Q$(MAKE) build/$(KIND)-4/tests/bench/bench_lights WIDTH=4
+	$Q$(MAKE) build/$(KIND)-1/tests/bench/bench_lights WIDTH=1
+	@{ echo "# $$(git describe --always --dirty 2>/dev/null) $(CC) $(OPT)"; \
+	  build/$(KIND)-4/tests/bench/bench_lights build/$(KIND)-1/tests/bench/bench_lights; } | tee -a build/bench.log
 
 ## bench-deps: install what the benchmarks alone are measured against
 bench-deps:

@@ -19,11 +19,10 @@ static const double least_sine = 1e-6;
 enum { SIDE_WALLS = SIDE_WEST + 1 };
 
 static const study_word sides[] = {
-    [SIDE_NONE] = { "", STUDY_OPTIONAL }, /* what is not written */
-    [SIDE_ROOM] = { "room", STUDY_OPTIONAL },       [SIDE_FLOOR] = { "floor", STUDY_OPTIONAL },
-    [SIDE_CEILING] = { "ceiling", STUDY_OPTIONAL }, [SIDE_SOUTH] = { "south", STUDY_OPTIONAL },
-    [SIDE_EAST] = { "east", STUDY_OPTIONAL },       [SIDE_NORTH] = { "north", STUDY_OPTIONAL },
-    [SIDE_WEST] = { "west", STUDY_OPTIONAL },       [SIDE_WALLS] = { "walls", STUDY_OPTIONAL },
+    [SIDE_NONE] = { "" }, /* what is not written */
+    [SIDE_ROOM] = { "room" },   [SIDE_FLOOR] = { "floor" }, [SIDE_CEILING] = { "ceiling" },
+    [SIDE_SOUTH] = { "south" }, [SIDE_EAST] = { "east" },   [SIDE_NORTH] = { "north" },
+    [SIDE_WEST] = { "west" },   [SIDE_WALLS] = { "walls" },
 };
 
 static bool read_on(const study_reader *r, const yaml_node_t *value, void *field)
@@ -36,10 +35,10 @@ static bool read_on(const study_reader *r, const yaml_node_t *value, void *field
 }
 
 static const study_word quantities[] = {
-    [QUANTITY_PLANAR]          = { "planar", STUDY_OPTIONAL },
-    [QUANTITY_VERTICAL]        = { "vertical", STUDY_OPTIONAL },
-    [QUANTITY_CYLINDRICAL]     = { "cylindrical", STUDY_OPTIONAL },
-    [QUANTITY_SEMICYLINDRICAL] = { "semicylindrical", STUDY_OPTIONAL },
+    [QUANTITY_PLANAR]          = { "planar" },
+    [QUANTITY_VERTICAL]        = { "vertical" },
+    [QUANTITY_CYLINDRICAL]     = { "cylindrical" },
+    [QUANTITY_SEMICYLINDRICAL] = { "semicylindrical" },
 };
 
 static bool read_quantity(const study_reader *r, const yaml_node_t *value, void *field)

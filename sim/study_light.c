@@ -73,22 +73,19 @@ static bool read_rect_size(const study_reader *r, const yaml_node_t *value, void
 
 #define IN_LIGHT(field) offsetof(light_draft, light.field)
 
-#define KEYS_OF_ALL                                                                                \
-    STUDY_EMITTER_KEYS(study_light), { "type", STUDY_REQUIRED, read_type, 0 }
-#define KEYS_OF_AIM                                                                                \
-    { "at", STUDY_REQUIRED, read_at, 0 },                                                          \
-        { "aim", STUDY_OPTIONAL, study_read_direction, IN_LIGHT(aim) },                            \
-    {                                                                                              \
-        "aim_at", STUDY_OPTIONAL, read_aim_at, 0                                                   \
-    }
-#define KEY_OF_STRENGTH(name)                                                                      \
-    {                                                                                              \
-#name, STUDY_OPTIONAL, study_read_nonnegative, IN_LIGHT(name)                              \
-    }
-#define KEY_OF_PHOTOMETRY                                                                          \
-    {                                                                                              \
-        "photometry", STUDY_OPTIONAL, study_read_path, IN_LIGHT(photometry)                        \
-    }
+/* clang-format off */
+#define KEYS_OF_ALL \
+    STUDY_EMITTER_KEYS(study_light), \
+    { "type", STUDY_REQUIRED, read_type, 0 }
+#define KEYS_OF_AIM \
+    { "at", STUDY_REQUIRED, read_at, 0 }, \
+    { "aim", STUDY_OPTIONAL, study_read_direction, IN_LIGHT(aim) }, \
+    { "aim_at", STUDY_OPTIONAL, read_aim_at, 0 }
+#define KEY_OF_STRENGTH(name) \
+    { #name, STUDY_OPTIONAL, study_read_nonnegative, IN_LIGHT(name) }
+#define KEY_OF_PHOTOMETRY \
+    { "photometry", STUDY_OPTIONAL, study_read_path, IN_LIGHT(photometry) }
+/* clang-format on */
 
 _Static_assert(offsetof(light_draft, light) == 0, "a draft is read as the light it begins with");
 

@@ -83,9 +83,8 @@ static bool layout_has_places(const study_reader *r, const yaml_node_t *value,
 static bool read_layout(const study_reader *r, const yaml_node_t *value, void *field)
 {
     study_layout *l = field;
-    *l              = (study_layout){
-                     .where = study_node_where(value), .given = true, .z = (double)NAN, .count = { 1, 1, 1 }
-    };
+    *l = (study_layout){ .where = study_node_where(value), .given = true, .z = (double)NAN };
+    l->count[0] = l->count[1] = l->count[2] = 1;
     if (!study_read_map(r, value, &layout_keys, l) || !layout_form_kept(r, value, l->fill))
         return false;
 

@@ -14,17 +14,14 @@ study_read_fn study_read_views;                                         /* study
 study_read_fn study_read_variants;                                      /* study_variant.c */
 
 /* What luminaires and lights share: their name, and what is in their `emission`. */
-#define STUDY_EMITTER_KEYS(record)                                                                 \
-    { "name", STUDY_OPTIONAL, study_read_name, offsetof(record, name) },                           \
-        { "color", STUDY_OPTIONAL, study_read_color, offsetof(record, emission.color) },           \
-        { "dimming", STUDY_OPTIONAL, study_read_nonnegative, offsetof(record, emission.dimming) }, \
-    {                                                                                              \
-        "group", STUDY_OPTIONAL, study_read_group, offsetof(record, emission.group)                \
-    }
-#define STUDY_EMISSION_PLAIN                                                                       \
-    {                                                                                              \
-        .color = { 1, 1, 1 }, .dimming = 1.0                                                       \
-    }
+/* clang-format off */
+#define STUDY_EMITTER_KEYS(record) \
+    { "name", STUDY_OPTIONAL, study_read_name, offsetof(record, name) }, \
+    { "color", STUDY_OPTIONAL, study_read_color, offsetof(record, emission.color) }, \
+    { "dimming", STUDY_OPTIONAL, study_read_nonnegative, offsetof(record, emission.dimming) }, \
+    { "group", STUDY_OPTIONAL, study_read_group, offsetof(record, emission.group) }
+#define STUDY_EMISSION_PLAIN { .color = { 1, 1, 1 }, .dimming = 1.0 }
+/* clang-format on */
 
 /* Once all is read. The places of luminaires with `layout`, and whether each can look at `aim_at`;
  * whether groups are there to be dimmed; the planes of grids on surfaces of the room, and counts.

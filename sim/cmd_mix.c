@@ -71,7 +71,6 @@ static bool choose_outputs(const command_context *c, const mix *m, mix_outputs *
            may_write(c, m, to->png, err);
 }
 
-/* A mixture of others' layers may lack what a preview takes. */
 static bool write_preview(const command_context *c, const image *im, const char *path,
                           lux_error *err)
 {

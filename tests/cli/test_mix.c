@@ -106,13 +106,13 @@ TEST(tables_that_are_none_are_refused_with_their_line)
 
 /* ---- pictures -------------------------------------------------------------------------------- */
 
-enum { WIDTH = 3, HEIGHT = 2, PIXELS = WIDTH * HEIGHT, MOST_CHANNELS = 32 };
+enum { WIDTH = 3, HEIGHT = 2, PIXELS = WIDTH * HEIGHT, ALL_CHANNELS = 32 };
 
 /* A picture that grows; pixel i of a channel is value + i * step. */
 typedef struct picture {
     image im;
-    image_channel channels[MOST_CHANNELS];
-    float values[MOST_CHANNELS][PIXELS];
+    image_channel channels[ALL_CHANNELS];
+    float values[ALL_CHANNELS][PIXELS];
 } picture;
 
 static void add(picture *p, const char *name, float value, float step)

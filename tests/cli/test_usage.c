@@ -38,14 +38,15 @@ TEST(help_lists_the_commands)
         assert_tells(&r, "\n  render ");
         assert_tells(&r, "\n  check ");
         assert_tells(&r, "\n  photometry ");
+        assert_tells(&r, "\n  mix ");
     }
     program_free(&r);
 }
 
 TEST(each_command_has_its_help)
 {
-    static const char *const commands[] = { "grid", "render", "check", "photometry" };
-    for (int i = 0; i < 4; i++) {
+    static const char *const commands[] = { "grid", "render", "check", "photometry", "mix" };
+    for (int i = 0; i < 5; i++) {
         program_result r = { 0 }, same = { 0 };
         LUX4(NULL, 0, &r, "help", commands[i]);
         LUX4(NULL, 0, &same, commands[i], "--help");

@@ -38,7 +38,7 @@ static bool field_is(const char *at, const char *word)
     return field_length(at) == strlen(word) && !strncmp(at, word, strlen(word));
 }
 
-/* "expected WANTED, found `...`" at c->at. */
+/* "expected WANTED, found `...`", where it stands. */
 static void *unexpected(const table *t, const char *wanted)
 {
     char found[24] = "";

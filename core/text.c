@@ -5,6 +5,7 @@
 #include <locale.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static bool digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -52,4 +53,26 @@ bool text_number(const char *s, const char **end, double *out)
     if (end)
         *end = last;
     return true;
+}
+
+static int least(int a, int b) { return a < b ? a : b; }
+
+/* Optimal string alignment. */
+int text_distance(const char *a, const char *b)
+{
+    enum { MOST = 31 };
+    int d[MOST + 1][MOST + 1];
+    int rows = (int)strnlen(a, MOST), columns = (int)strnlen(b, MOST);
+    for (int i = 0; i <= rows; i++)
+        d[i][0] = i;
+    for (int j = 0; j <= columns; j++)
+        d[0][j] = j;
+    for (int i = 1; i <= rows; i++)
+        for (int j = 1; j <= columns; j++) {
+            int change = d[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
+            d[i][j]    = least(change, least(d[i - 1][j], d[i][j - 1]) + 1);
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                d[i][j] = least(d[i][j], d[i - 2][j - 2] + 1);
+        }
+    return d[rows][columns];
 }

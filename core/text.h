@@ -1,4 +1,4 @@
-/* core/text.h -- numbers as people and files write them. */
+/* core/text.h -- numbers as people and files write them, and words that they misspell. */
 #ifndef CORE_TEXT_H
 #define CORE_TEXT_H
 
@@ -13,6 +13,10 @@ extern "C" {
  * point whatever the locale. False if there is none or if it is too large for a double; else
  * *out is the nearest double and *end, unless NULL, the first byte behind the number. */
 bool text_number(const char *s, const char **end, double *out);
+
+/* How many characters must be inserted, dropped, changed or swapped with their neighbours to make
+ * b of a. Of each, 31 bytes are looked at. */
+int text_distance(const char *a, const char *b);
 
 #ifdef __cplusplus
 }

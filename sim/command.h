@@ -21,7 +21,7 @@ typedef enum exit_code {
 typedef struct command_line {
     const char *const *files; /* what is not an option, in order */
     int file_count;
-    output_place place; /* -o, --overwrite */
+    output_place place; /* -o (of mix: the file), --overwrite */
     int threads;        /* 0: as many as processors */
     uint32_t seed;      /* 1 */
     bool quiet, json, direct_only, half, groups, schedule;
@@ -49,12 +49,14 @@ typedef struct command {
     const char *files;   /* "STUDY.yaml", for the usage line */
     const char *summary; /* one line */
     const char *help;    /* what `lux4 help NAME` says besides usage and options */
+    const char *output;  /* what -o takes, and what for, if it is not the usual folder; NULL */
+    const char *output_help;
     const char *options; /* the long names of those that count here, each between blanks */
     int (*run)(const command_context *c,
                lux_error *err); /* an exit code; if not 0, *err may say why */
 } command;
 
-extern const command command_grid, command_render, command_check, command_photometry;
+extern const command command_grid, command_render, command_check, command_photometry, command_mix;
 
 /* Reads the words behind the command's name. False, with *err, for what cannot be. */
 bool command_line_read(arena *a, const command *c, int count, char *const *words, command_line *out,

@@ -54,8 +54,9 @@ void command_options_print(FILE *to, const command *c)
         if (!o->help || !counts_for(c, o->name))
             continue;
         char both[40];
-        snprintf(both, sizeof both, "%s %s", o->name, o->value ? o->value : "");
-        fprintf(to, "  %-20s %s\n", both, o->help);
+        bool other = c->output && !strcmp(o->name, "-o");
+        snprintf(both, sizeof both, "%s %s", o->name, other ? c->output : o->value ? o->value : "");
+        fprintf(to, "  %-20s %s\n", both, other ? c->output_help : o->help);
     }
 }
 
@@ -165,15 +166,19 @@ static bool read_option(const command *c, int count, char *const *words, int *at
         return failed(err, ERR_UNSUPPORTED, "%s is not supported yet", o->name);
     if (o->own && !counts_for(c, o->name))
         return failed(err, ERR_ARGUMENT, "%s has no meaning for lux4 %s", o->name, c->name);
-    const char *value = "";
+    const char *value = "", *wanted = o->value;
+    if (c->output && !strcmp(o->name, "-o"))
+        wanted = c->output;
     if (o->value && equals)
         value = equals + 1;
     else if (o->value && *at + 1 < count)
         value = words[++*at];
     else if (o->value)
-        return failed(err, ERR_ARGUMENT, "%s: expected %s behind it", o->name, o->value);
+        return failed(err, ERR_ARGUMENT, "%s: expected %s behind it", o->name, wanted);
     else if (equals)
         return failed(err, ERR_ARGUMENT, "%s takes no value", o->name);
+    if (wanted && wanted == c->output && !value[0])
+        return failed(err, ERR_ARGUMENT, "%s: expected %s behind it", o->name, wanted);
     return take(out, o->name, value, err);
 }
 

@@ -31,15 +31,15 @@ typedef struct tally {
     vmask shut, touch; /* once out > in; a surface at the place itself */
 } tally;
 
-static void count_hit(tally *c, const world *w, vvec3 from, vvec3 d, const vhit *hit, vmask active)
+static void count_hit(tally *c, const world *w, const vray *ray, const vhit *hit, vmask active)
 {
     /* m: how far off each other two surfaces in one plane may be found, by some roundings of
      * corners, of their way to the ray and of its distance */
     const float roundings = 64.0f * 0x1p-24f;
     vsurface s;
     world_surface(w, hit, active, &s);
-    vfloat cosine = vdot(s.normal, d);
-    vfloat near   = roundings * vmax(largest(from), largest(s.position));
+    vfloat cosine = vdot(s.normal, ray->direction);
+    vfloat near   = roundings * vmax(largest(ray->origin), largest(s.position));
     vmask back    = active & (cosine > 0.0f);
     vmask front   = active & ~(cosine > 0.0f);
 
@@ -63,7 +63,7 @@ static vmask closed_toward(const world *w, vvec3 from, vec3 d, vmask active)
         vmask met = active & (hits[k].instance >= vsplat_int(0)) & ~c.shut;
         if (!vany(met))
             break;
-        count_hit(&c, w, from, ray.direction, &hits[k], met);
+        count_hit(&c, w, &ray, &hits[k], met);
     }
     return active & c.shut & ~c.touch;
 }

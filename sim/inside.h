@@ -11,7 +11,7 @@
  * two walls, and places on a surface, to within rounding. Not judged, and so not inside: solids
  * of which some surface faces the wrong way, those with a hole as wide as a 64th of what is seen
  * from the place, those that reach through an open surface (a cupboard sunk into the floor), and
- * those behind whose back more than 32 surfaces would have to be counted.
+ * places from which more than 32 surfaces would have to be counted.
  */
 #ifndef SIM_INSIDE_H
 #define SIM_INSIDE_H

@@ -1,6 +1,8 @@
 /* sim/study_node.c -- mappings, lists and words of a study; see study_node.h. */
 #include "sim/study_node.h"
 
+#include "core/text.h"
+
 #include <assert.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -82,32 +84,9 @@ void *study_unexpected(const study_reader *r, const yaml_node_t *n, const char *
 
 /* ---- mappings ------------------------------------------------------------------------------- */
 
-static int least(int a, int b) { return a < b ? a : b; }
-
-/* How many characters must be inserted, dropped, changed or swapped with their neighbours to make
- * b of a (optimal string alignment). Of each, 31 bytes are looked at. */
-static int edit_distance(const char *a, const char *b)
-{
-    enum { MOST = 31 };
-    int d[MOST + 1][MOST + 1];
-    int rows = (int)strnlen(a, MOST), columns = (int)strnlen(b, MOST);
-    for (int i = 0; i <= rows; i++)
-        d[i][0] = i;
-    for (int j = 0; j <= columns; j++)
-        d[0][j] = j;
-    for (int i = 1; i <= rows; i++)
-        for (int j = 1; j <= columns; j++) {
-            int change = d[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
-            d[i][j]    = least(change, least(d[i - 1][j], d[i][j - 1]) + 1);
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-                d[i][j] = least(d[i][j], d[i - 2][j - 2] + 1);
-        }
-    return d[rows][columns];
-}
-
 void study_guess_show(study_guess *g, const char *candidate)
 {
-    int distance = edit_distance(g->wrong, candidate);
+    int distance = text_distance(g->wrong, candidate);
     int most     = g->nearest ? g->distance - 1 : (int)(strnlen(g->wrong, 31) + 1) / 2;
     if (distance <= most)
         g->distance = distance, g->nearest = candidate;

@@ -60,12 +60,34 @@ TEST(a_locale_with_a_comma_changes_nothing)
     setlocale(LC_NUMERIC, "C");
 }
 
+/* Counted by hand; kitten and sitting is everybody's example. */
+TEST(words_are_as_far_apart_as_slips_lie_between)
+{
+    static const struct {
+        const char *a, *b;
+        int slips;
+    } cases[] = {
+        { "", "", 0 },
+        { "general", "general", 0 },
+        { "", "sky", 3 },
+        { "sky", "", 3 },
+        { "kitten", "sitting", 3 },
+        { "genral", "general", 1 },
+        { "gerneal", "general", 2 },
+        { "gird", "grid", 1 },
+        { "grid", "render", 5 },
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        assert_int_equal(text_distance(cases[i].a, cases[i].b), cases[i].slips);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(numbers_end_where_they_end),
         cmocka_unit_test(numbers_are_the_nearest_doubles),
         cmocka_unit_test(what_is_no_finite_number_is_refused),
+        cmocka_unit_test(words_are_as_far_apart_as_slips_lie_between),
         cmocka_unit_test(a_locale_with_a_comma_changes_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -13,16 +13,18 @@ typedef struct ldt {
 
 static const ldt plain = { "1", "1", "0\n0\n0\n0\n0\n0", "1", ONE_SET, "0", "100\n50\n0" };
 
-static const photometry *read_ldt(ldt t)
+static const char *sheet_text(ldt t)
 {
-    char text[2048];
+    static char text[2048];
     snprintf(text, sizeof text,
              "Company\n2\n%s\n%s\n0\n3\n45\nReport\nName\nNumber\nfile.ldt\ndate\n500\n400\n30\n%"
              "s\n100\n"
              "100\n%s\n0\n%s0\n0\n0\n0\n0\n0\n0\n0\n0\n0\n%s\n0\n45\n90\n%s\n",
              t.symmetry, t.planes, t.opening, t.factor, t.sets, t.angles, t.values);
-    return read_text(text);
+    return text;
 }
+
+static const photometry *read_ldt(ldt t) { return read_text(sheet_text(t)); }
 
 TEST(intensities_are_per_1000_lumens_times_the_conversion_factor)
 {
@@ -112,12 +114,18 @@ TEST(openings_are_round_where_the_width_is_0)
         const char *size;
         opening_shape shape;
         double l, w, h;
+        int notices;
     } cases[] = {
-        { "1200\n300\n0\n0\n0\n0", OPENING_RECTANGLE, 1.2, 0.3, 0 },
-        { "1200\n300\n10\n20\n10\n20", OPENING_BOX, 1.2, 0.3, 0.02 },
-        { "200\n0\n0\n0\n0\n0", OPENING_DISC, 0.2, 0.2, 0 },
-        { "200\n0\n50\n50\n50\n50", OPENING_VERTICAL_CYLINDER, 0.2, 0.2, 0.05 },
-        { "0\n0\n\n0\n0\n0", OPENING_POINT, 0, 0, 0 },
+        { "1200\n300\n0\n0\n0\n0", OPENING_RECTANGLE, 1.2, 0.3, 0, 0 },
+        { "1200\n300\n20\n20\n20\n20", OPENING_BOX, 1.2, 0.3, 0.02, 0 },
+        { "1200\n300\n10\n20\n10\n20", OPENING_BOX, 1.2, 0.3, 0.02, 1 },
+        { "200\n0\n0\n0\n0\n0", OPENING_DISC, 0.2, 0.2, 0, 0 },
+        { "200\n0\n50\n50\n50\n50", OPENING_VERTICAL_CYLINDER, 0.2, 0.2, 0.05, 0 },
+        { "0\n300\n0\n0\n0\n0", OPENING_LINE, 0, 0.3, 0, 0 },
+        { "0\n300\n50\n50\n50\n50", OPENING_BOX, 0, 0.3, 0.05, 0 },
+        { "0\n0\n50\n50\n50\n50", OPENING_LINE, 0, 0, 0.05, 0 },
+        { "0\n0\n\n0\n0\n0", OPENING_POINT, 0, 0, 0, 1 },
+        { "-5\n0\n0\n0\n0\n0", OPENING_POINT, 0, 0, 0, 1 },
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         ldt t     = plain;
@@ -127,7 +135,79 @@ TEST(openings_are_round_where_the_width_is_0)
         assert_near(r.p->length, cases[i].l, 1e-6);
         assert_near(r.p->width, cases[i].w, 1e-6);
         assert_near(r.p->height, cases[i].h, 1e-6);
+        assert_int_equal(r.n.count, cases[i].notices);
     }
+}
+
+TEST(each_side_has_its_luminous_height)
+{
+    ldt t     = plain;
+    t.opening = "1200\n300\n10\n20\n0\n40";
+    assert_non_null(read_ldt(t));
+    const float mm[4] = { 10, 20, 0, 40 };
+    for (int i = 0; i < 4; i++)
+        assert_near(r.p->side_height[i], 1e-3 * (double)mm[i], 1e-6);
+    assert_true(noticed("t:18: luminous heights of 10, 20, 0, 40 mm toward C0, C90, C180, C270: "
+                        "the light is spread over a box of the greatest"));
+}
+
+/* What is between the values does not matter, but is said, once. */
+TEST(tables_with_blank_lines_and_crowded_lines_are_read)
+{
+    ldt t    = plain;
+    t.values = "100\n\n50\n\n \n0";
+    assert_non_null(read_ldt(t));
+    assert_true(at(0, 45) == 100.0 && r.n.count == 1);
+    assert_true(noticed("t:48: a blank line among the values: passed over"));
+    t.values = "100 50\t0\n";
+    assert_non_null(read_ldt(t));
+    assert_true(at(0, 45) == 100.0 && r.n.count == 1);
+    assert_true(noticed("t:47: several values on a line, where EULUMDAT has one: all are read"));
+    t.values = "100 50 x\n";
+    assert_null(read_ldt(t));
+    assert_string_equal(r.err.text, "t:47:8: found 'x', expected intensity 3 of 3");
+    t.values = "100\n50\n0\nThe end";
+    assert_non_null(read_ldt(t));
+    assert_true(r.n.count == 1 && noticed("t:50: text behind the last intensity: ignored"));
+}
+
+TEST(decimal_commas_line_ends_and_marks_do_not_matter)
+{
+    ldt t    = plain;
+    t.values = "100,5\n50,25\n0";
+    assert_non_null(read_ldt(t));
+    assert_near(at(0, 0), 201.0, 1e-6);
+    assert_near(at(0, 45), 100.5, 1e-6);
+    const char *ends[] = { "\r\n", "\r", "\r\r\n" };
+    for (int i = 0; i < 4; i++) {
+        char text[2048];
+        size_t n = 0;
+        if (i == 3)
+            n = (size_t)snprintf(text, sizeof text, "\xef\xbb\xbf");
+        for (const char *s = sheet_text(t); *s; s++)
+            if (*s == '\n' && i < 3)
+                n += (size_t)snprintf(text + n, sizeof text - n, "%s", ends[i]);
+            else
+                text[n++] = *s;
+        n += (size_t)snprintf(text + n, sizeof text - n, "\x1a garbage");
+        assert_non_null(read_text(text));
+        assert_near(at(0, 45), 100.5, 1e-6);
+        assert_string_equal(r.p->manufacturer, "Company");
+        assert_int_equal(r.n.count, 0);
+    }
+}
+
+TEST(blank_lines_before_the_first_are_passed_over)
+{
+    char text[2048];
+    snprintf(text, sizeof text, "\n \n%s", sheet_text(plain));
+    assert_non_null(read_text(text));
+    assert_string_equal(r.p->manufacturer, "Company");
+    assert_true(at(0, 45) == 100.0 && noticed("t:1: blank lines before the first"));
+    snprintf(text, sizeof text, "%s", strchr(sheet_text(plain), '\n')); /* no company: no blank */
+    assert_non_null(read_text(text));
+    assert_string_equal(r.p->manufacturer, "");
+    assert_int_equal(r.n.count, 0);
 }
 
 TEST(what_eulumdat_cannot_mean_is_refused_at_its_place)
@@ -152,13 +232,13 @@ TEST(what_eulumdat_cannot_mean_is_refused_at_its_place)
     t.sets = "1\n1\nLED\n0\n\n\n5\n";
     assert_null(read_ldt(t));
     assert_string_equal(r.err.text,
-                        "t:29: found a flux of the lamps of 0 lm, expected > 0: intensities "
-                        "are given per 1000 lm");
+                        "t:29:1: found '0', expected a flux of the lamps > 0: intensities are "
+                        "given per 1000 lm");
     t          = plain;
     t.symmetry = "2", t.planes = "8", t.angles = "0\n10\n20\n30\n40\n50\n60\n70";
     assert_null(read_ldt(t));
     assert_string_equal(r.err.text,
-                        "t:43: found C planes from 0 to 40 for symmetry 2, expected 0 to 180");
+                        "t:43:1: found C planes from 0 to 40 for symmetry 2, expected 0 to 180");
     t.angles = "0\n10\n10\n30\n40\n50\n60\n70";
     assert_null(read_ldt(t));
     assert_string_equal(
@@ -320,9 +400,56 @@ TEST(round_openings_keep_their_shape_in_lm_63)
         reading out;
         assert_int_equal(again(&p, "build/round_trip.ies", &out)->opening, shapes[i]);
         assert_same(&p, out.p);
-        assert_int_equal(out.n.count, 0);
+        /* LM-63 has no line: once said when it is written, once when it is read */
+        assert_int_equal(out.n.count, shapes[i] == OPENING_LINE ? 2 : 0);
         arena_clear(&out.a);
     }
+}
+
+/* A line along C0 is across in EULUMDAT, whose width of 0 would make the other one round. */
+TEST(lines_keep_their_direction_in_eulumdat)
+{
+    for (int along = 0; along <= 90; along += 90) {
+        assert_non_null(read_ldt(plain));
+        photometry p = *r.p;
+        p.opening = OPENING_LINE, p.length = 0.5f, p.length_along_deg = (float)along;
+        reading out;
+        again(&p, "build/round_trip.ldt", &out);
+        assert_int_equal(out.p->opening, along == 90 ? OPENING_RECTANGLE : OPENING_LINE);
+        assert_near(out.p->length, along == 90 ? 0.5 : 0.0, 1e-6);
+        assert_near(out.p->width, along == 90 ? 0.001 : 0.5, 1e-6);
+        assert_int_equal(out.n.count, along == 90 ? 1 : 0);
+        arena_clear(&out.a);
+    }
+}
+
+TEST(what_a_format_has_no_word_for_is_said)
+{
+    const float angle[2] = { 0, 90 }, factor[2] = { 1, 0.5f };
+    ldt t     = plain;
+    t.opening = "1200\n300\n10\n20\n10\n20";
+    assert_non_null(read_ldt(t));
+    photometry p = *r.p;
+    p.tilt_count = 2, p.tilt_geometry = 3, p.tilt_deg = angle, p.tilt_factor = factor;
+    p.name = "A name that is longer than the 78 bytes which a line of EULUMDAT holds, by 19 bytes "
+             "of text";
+    reading out;
+    again(&p, "build/round_trip.ldt", &out);
+    assert_int_equal(out.p->tilt_count, 0);
+    assert_int_equal(strlen(out.p->name), 78);
+    assert_true(out.p->side_height[0] == 0.01f && out.p->side_height[1] == 0.02f);
+    assert_int_equal(out.n.count, 3); /* the tilt, the label; and uneven heights when read */
+    arena_clear(&out.a);
+
+    again(&p, "build/round_trip.ies", &out);
+    assert_string_equal(out.p->name, p.name);
+    assert_int_equal(out.p->tilt_count, 2);
+    assert_int_equal(out.p->tilt_geometry, 3);
+    assert_near(photometry_tilt_factor(out.p, 45), 0.75, 1e-7);
+    assert_string_equal(out.n.first->text, "build/round_trip.ies: LM-63 has one height of the "
+                                           "opening: 0.02 m, the greatest");
+    assert_int_equal(out.n.count, 1);
+    arena_clear(&out.a);
 }
 
 TEST(only_names_that_say_a_format_are_written)
@@ -343,6 +470,10 @@ int main(void)
         cmocka_unit_test(of_several_sets_of_lamps_the_first_counts),
         cmocka_unit_test(symmetries_are_unfolded_as_stockmar_numbers_planes),
         cmocka_unit_test(openings_are_round_where_the_width_is_0),
+        cmocka_unit_test(each_side_has_its_luminous_height),
+        cmocka_unit_test(tables_with_blank_lines_and_crowded_lines_are_read),
+        cmocka_unit_test(decimal_commas_line_ends_and_marks_do_not_matter),
+        cmocka_unit_test(blank_lines_before_the_first_are_passed_over),
         cmocka_unit_test(what_eulumdat_cannot_mean_is_refused_at_its_place),
         cmocka_unit_test(a_stated_output_that_the_web_does_not_have_is_doubted),
         cmocka_unit_test(figures_of_a_straight_line_are_its_closed_forms),
@@ -350,6 +481,8 @@ int main(void)
         cmocka_unit_test(from_one_format_to_the_other_and_back_light_and_opening_stay),
         cmocka_unit_test(a_web_without_planes_on_the_axes_is_written_whole),
         cmocka_unit_test(round_openings_keep_their_shape_in_lm_63),
+        cmocka_unit_test(lines_keep_their_direction_in_eulumdat),
+        cmocka_unit_test(what_a_format_has_no_word_for_is_said),
         cmocka_unit_test(only_names_that_say_a_format_are_written),
     };
     return cmocka_run_group_tests(tests, NULL, finish);

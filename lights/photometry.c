@@ -125,10 +125,10 @@ const photometry *photometry_parse(arena *a, const char *path, const char *bytes
 
     scanner start = after_blank_lines(&c);
     bool read;
-    if (has_tilt_line(c) || begins_as_ies(c))
+    if (begins_as_eulumdat(c) && !(begins_as_ies(c) && has_tilt_line(c)))
+        read = photometry_read_eulumdat(p, &c, err); /* whose labels may be anything */
+    else if (has_tilt_line(c) || begins_as_ies(c))
         read = photometry_read_ies(p, &c, err);
-    else if (begins_as_eulumdat(c))
-        read = photometry_read_eulumdat(p, &c, err);
     else if (begins_as_eulumdat(start)) {
         notice_add(n, "%s:1: blank lines before the first: passed over", path);
         read = photometry_read_eulumdat(p, &start, err);

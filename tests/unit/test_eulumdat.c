@@ -197,9 +197,22 @@ TEST(decimal_commas_line_ends_and_marks_do_not_matter)
     }
 }
 
-TEST(blank_lines_before_the_first_are_passed_over)
+TEST(labels_of_lm_63_do_not_make_it_that)
 {
     char text[2048];
+    for (int i = 0; i < 2; i++) {
+        snprintf(text, sizeof text, "%s%s", i ? "IES Ltd" : "Company",
+                 strchr(sheet_text(plain), '\n'));
+        if (i == 0)
+            memcpy(strstr(text, "Number"), "TILT=9", 6);
+        assert_non_null(read_text(text));
+        assert_int_equal(r.p->format, PHOTOMETRY_EULUMDAT);
+    }
+}
+
+TEST(blank_lines_before_the_first_are_passed_over)
+{
+    char text[2100];
     snprintf(text, sizeof text, "\n \n%s", sheet_text(plain));
     assert_non_null(read_text(text));
     assert_string_equal(r.p->manufacturer, "Company");
@@ -431,8 +444,8 @@ TEST(what_a_format_has_no_word_for_is_said)
     assert_non_null(read_ldt(t));
     photometry p = *r.p;
     p.tilt_count = 2, p.tilt_geometry = 3, p.tilt_deg = angle, p.tilt_factor = factor;
-    p.name = "A name that is longer than the 78 bytes which a line of EULUMDAT holds, by 19 bytes "
-             "of text";
+    p.name = "A name that is longer than the 78 bytes which a line of EULUMDAT holds, and by a few "
+             "more words";
     reading out;
     again(&p, "build/round_trip.ldt", &out);
     assert_int_equal(out.p->tilt_count, 0);
@@ -473,6 +486,7 @@ int main(void)
         cmocka_unit_test(each_side_has_its_luminous_height),
         cmocka_unit_test(tables_with_blank_lines_and_crowded_lines_are_read),
         cmocka_unit_test(decimal_commas_line_ends_and_marks_do_not_matter),
+        cmocka_unit_test(labels_of_lm_63_do_not_make_it_that),
         cmocka_unit_test(blank_lines_before_the_first_are_passed_over),
         cmocka_unit_test(what_eulumdat_cannot_mean_is_refused_at_its_place),
         cmocka_unit_test(a_stated_output_that_the_web_does_not_have_is_doubted),

@@ -144,6 +144,13 @@ static bool free_name(const char *path, const photometry_options *o, lux_error *
     return failed(err, ERR_ARGUMENT, "%s: is there already; --overwrite replaces it", path);
 }
 
+/* The luminaire's name, or its number, or that of the file. */
+static const char *title_of(const photometry *p, const char *file)
+{
+    const char *slash = strrchr(file, '/');
+    return p->name[0] ? p->name : p->catalog[0] ? p->catalog : slash ? slash + 1 : file;
+}
+
 static bool report_file(FILE *out, const char *file, const photometry_options *o, bool *first,
                         notices *n, lux_error *err)
 {
@@ -157,7 +164,7 @@ static bool report_file(FILE *out, const char *file, const photometry_options *o
             done = free_name(o->write, o, err) && photometry_write(p, o->write, &warnings, err);
         if (done && o->plot)
             done = free_name(o->plot, o, err) &&
-                   photometry_plot(p, p->name[0] ? p->name : file, o->plot, err);
+                   photometry_plot(p, title_of(p, file), o->plot, err);
         fputs(*first ? "" : o->json ? "," : "\n", out);
         *first = false;
         if (o->json)

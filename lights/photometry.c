@@ -100,7 +100,7 @@ static bool open_text(scanner *c, size_t size, lux_error *err)
     const char *ctrl_z = memchr(c->at, 0x1a, (size_t)(c->end - c->at));
     c->end             = ctrl_z ? ctrl_z : c->end;
     c->line_start      = c->at;
-    const char *zero = memchr(c->at, '\0', (size_t)(c->end - c->at));
+    const char *zero   = memchr(c->at, '\0', (size_t)(c->end - c->at));
     if (zero)
         return refuse_zero(*c, zero, err);
     scanner left = *c;

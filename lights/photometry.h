@@ -87,8 +87,8 @@ typedef struct photometry {
     /* LM-63's TILT: what the lamp gives, of what it gave when measured, by how far the luminaire
      * is aimed from straight down; count 0: the same in every tilt */
     int tilt_count;
-    int tilt_geometry;       /* 1: lamp vertical; 2: horizontal always; 3: horizontal, tilting */
-    const float *tilt_deg;   /* [0, 180], ascending */
+    int tilt_geometry;        /* 1: lamp vertical; 2: horizontal always; 3: horizontal, tilting */
+    const float *tilt_deg;    /* [0, 180], ascending */
     const float *tilt_factor; /* >= 0 */
 } photometry;
 

@@ -26,7 +26,10 @@ static bool is_utf8(const char *text, size_t length)
 
 /* ---- Shift-JIS -------------------------------------------------------------------------- */
 
-static bool is_lead(unsigned char b) { return (b >= 0x81 && b <= 0x9f) || (b >= 0xe0 && b <= 0xfc); }
+static bool is_lead(unsigned char b)
+{
+    return (b >= 0x81 && b <= 0x9f) || (b >= 0xe0 && b <= 0xfc);
+}
 static bool is_trail(unsigned char b) { return b >= 0x40 && b <= 0xfc && b != 0x7f; }
 static bool is_kana(unsigned char b) { return b >= 0xa1 && b <= 0xdf; } /* half-width */
 

@@ -72,7 +72,8 @@ static bool read_header(scanner *c, ies_header *h, lux_error *err)
         bool whole = numbers[i].most > 0;
         scan_left(c);
         h->place[i] = *c;
-        if (whole && !scan_count(c, numbers[i].what, numbers[i].least, numbers[i].most, &count, err))
+        if (whole &&
+            !scan_count(c, numbers[i].what, numbers[i].least, numbers[i].most, &count, err))
             return false;
         if (!whole && !scan_number(c, numbers[i].what, &h->at[i], err))
             return false;
@@ -105,8 +106,8 @@ static void check_tenth(const photometry *p, scanner *c, const ies_header *h)
     int line                          = h->place[TENTH].line;
     if (p->format != PHOTOMETRY_LM63_2019) {
         if (tenth != 1.0)
-            notice_add(c->n, "%s:%d: %g behind the ballast factor, where %s has 1: ignored", c->path,
-                       line, tenth, photometry_format_name(p->format));
+            notice_add(c->n, "%s:%d: %g behind the ballast factor, where %s has 1: ignored",
+                       c->path, line, tenth, photometry_format_name(p->format));
         return;
     }
     for (size_t i = 0; i < sizeof generations / sizeof *generations; i++)
@@ -161,8 +162,7 @@ static bool settle_header(photometry *p, scanner *c, ies_header *h, double *fact
     bool tenth_counts = p->format <= PHOTOMETRY_LM63_1991;
     if (!settle_factor(c, h, MULTIPLIER, "the candela multiplier", err) ||
         !settle_factor(c, h, BALLAST, "the ballast factor", err) ||
-        (tenth_counts &&
-         !settle_factor(c, h, TENTH, "the ballast-lamp photometric factor", err)))
+        (tenth_counts && !settle_factor(c, h, TENTH, "the ballast-lamp photometric factor", err)))
         return false;
     *factor = h->at[MULTIPLIER] * h->at[BALLAST] * (tenth_counts ? h->at[TENTH] : 1.0);
     if (!tenth_counts)
@@ -208,7 +208,8 @@ static bool read_candelas(scanner *c, stored_web *w, double factor, lux_error *e
         if (!scan_number(c, expected, &value, err))
             return false;
         if (!web_candela(value, factor, &w->candela[i], &negative))
-            return scan_wrong(&start, "a candela value that is below 1e30 cd with all factors", err);
+            return scan_wrong(&start, "a candela value that is below 1e30 cd with all factors",
+                              err);
     }
     if (negative > 0)
         notice_add(c->n, "%s:%d: %d negative candela values: taken as 0", c->path, line, negative);

@@ -22,7 +22,7 @@ typedef struct scanner {
     int line; /* 1, 2, ... */
     notices *n;
     arena *a;
-    bool shift_jis;                   /* what is not ASCII */
+    bool shift_jis;                  /* what is not ASCII */
     bool noted_blank, noted_crowded; /* notices of scan_value() that were given */
 } scanner;
 

@@ -7,8 +7,8 @@
 #include <string.h>
 
 enum {
-    LONGEST_SHOWN  = 32,  /* bytes of a word in a message */
-    LONGEST_NUMBER = 64,  /* bytes of a number with a decimal comma */
+    LONGEST_SHOWN  = 32, /* bytes of a word in a message */
+    LONGEST_NUMBER = 64, /* bytes of a number with a decimal comma */
 };
 
 static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\f' || c == '\v'; }

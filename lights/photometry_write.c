@@ -72,7 +72,8 @@ static void write_label(const web_output *o, const char *key, const char *text)
 {
     size_t n = text ? strlen(text) : 0;
     if (n > o->longest) {
-        notice_add(o->n, "%s: a label of %zu bytes is cut to %zu: %s", o->path, n, o->longest, text);
+        notice_add(o->n, "%s: a label of %zu bytes is cut to %zu: %s", o->path, n, o->longest,
+                   text);
         for (n = o->longest; (text[n] & 0xc0) == 0x80;)
             n--;
     }

@@ -101,6 +101,14 @@ static void text_number(FILE *out, const char *label, bool known, int digits, do
         fprintf(out, "  %-34snot stated\n", label);
 }
 
+static double least_tilt_factor(const photometry *p)
+{
+    double least = (double)p->tilt_factor[0];
+    for (int i = 1; i < p->tilt_count; i++)
+        least = fmin(least, (double)p->tilt_factor[i]);
+    return least;
+}
+
 static void report_text(FILE *out, const char *file, const photometry *p,
                         const photometry_figures *f)
 {
@@ -132,6 +140,10 @@ static void report_text(FILE *out, const char *file, const photometry *p,
     fprintf(out, "  %-34s%.1f in C0-C180, %.1f in C90-C270\n", "field angle, 10 % (deg)",
             f->field_deg[0], f->field_deg[1]);
     text_words(out, "CIE flux code", code);
+    if (p->tilt_count > 0)
+        fprintf(out, "  %-34s%g at least, up to %g deg from down\n",
+                "factor of the lamp when tilted", least_tilt_factor(p),
+                (double)p->tilt_deg[p->tilt_count - 1]);
 }
 
 /* ---- files ------------------------------------------------------------------------------ */
@@ -163,8 +175,8 @@ static bool report_file(FILE *out, const char *file, const photometry_options *o
         if (o->write)
             done = free_name(o->write, o, err) && photometry_write(p, o->write, &warnings, err);
         if (done && o->plot)
-            done = free_name(o->plot, o, err) &&
-                   photometry_plot(p, title_of(p, file), o->plot, err);
+            done =
+                free_name(o->plot, o, err) && photometry_plot(p, title_of(p, file), o->plot, err);
         fputs(*first ? "" : o->json ? "," : "\n", out);
         *first = false;
         if (o->json)

@@ -32,8 +32,7 @@ static void check(const photometry *p, notices *n)
     photometry_figures f = photometry_figure(p, "no/p", n);
     double tilted        = photometry_tilt_factor(p, 33.0);
     if (!(p->luminaire_lumens >= 0.0 && p->luminaire_lumens < HUGE_VAL) ||
-        !(f.beam_deg[0] >= 0.0 && f.field_deg[1] <= 360.0) ||
-        !(tilted >= 0.0 && tilted < HUGE_VAL))
+        !(f.beam_deg[0] >= 0.0 && f.field_deg[1] <= 360.0) || !(tilted >= 0.0 && tilted < HUGE_VAL))
         abort();
 }
 

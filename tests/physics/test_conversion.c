@@ -18,7 +18,8 @@ static const char ies[] = "IESNA:LM-63-2002\n[TEST] none\n[TESTLAB] none\n[ISSUE
                           "50 400 410 420 60\n50 100 110 120 60\n";
 
 static const char ldt[] =
-    "none\n2\n2\n8\n45\n3\n45\nnone\nnone\nnone\nweb.ldt\nnone\n1300\n400\n30\n1200\n300\n0\n0\n0\n0"
+    "none\n2\n2\n8\n45\n3\n45\nnone\nnone\nnone\nweb."
+    "ldt\nnone\n1300\n400\n30\n1200\n300\n0\n0\n0\n0"
     "\n100\n100\n1\n0\n1\n1\nLED\n1000\n3000\n80\n10\n0\n0\n0\n0\n0\n0\n0\n0\n0\n0\n"
     "0\n45\n90\n135\n180\n225\n270\n315\n0\n45\n90\n"
     "50\n100\n110\n50\n200\n210\n50\n300\n310\n50\n400\n410\n50\n500\n510\n";
@@ -30,12 +31,13 @@ static void light_of(const char *folder, const char *file, double rotate, double
 {
     arena a = { 0 };
     char yaml[1024];
-    snprintf(yaml, sizeof yaml,
-             "lux4: 1\nroom: {size: [4, 3, 2.5], reflectance: {ceiling: 0, walls: 0, floor: 0}}\n"
-             "luminaires: [{photometry: \"%s/%s\", at: [1.7, 1.2, 2.3], rotate: %g}]\n"
-             "grids: [{name: desk, origin: [0, 0, 0.7], u: [4, 0, 0], v: [0, 3, 0], spacing: 0.5}]\n"
-             "accuracy: 0.2%%\n",
-             folder, file, rotate);
+    snprintf(
+        yaml, sizeof yaml,
+        "lux4: 1\nroom: {size: [4, 3, 2.5], reflectance: {ceiling: 0, walls: 0, floor: 0}}\n"
+        "luminaires: [{photometry: \"%s/%s\", at: [1.7, 1.2, 2.3], rotate: %g}]\n"
+        "grids: [{name: desk, origin: [0, 0, 0.7], u: [4, 0, 0], v: [0, 3, 0], spacing: 0.5}]\n"
+        "accuracy: 0.2%%\n",
+        folder, file, rotate);
     const scene *made = scene_of_text(&a, yaml);
     grid_result r;
     grid_of_scene(&a, made, 0, &(run_options){ .seed = 1, .accuracy = 0.002 }, &r);

@@ -246,11 +246,13 @@ TEST(what_can_be_understood_is_and_says_so)
     read_text("IESNA91\nTILT=NONE\n" HEADER("1") WEB3 "and more\n");
     assert_true(r.p && noticed("t:8: text behind the last candela value"));
     read_text("IESNA91\nTILT=NONE\n" HEADER("0") WEB3);
-    assert_true(r.p && at(0, 0) == 100.0 && noticed("t:4: the ballast-lamp photometric factor is 0, where"));
+    assert_true(r.p && at(0, 0) == 100.0 &&
+                noticed("t:4: the ballast-lamp photometric factor is 0, where"));
     read_text("IESNA91\nTILT=NONE\n" HEADER("1") "0 45 90 0 100 -0.5 0\n");
     assert_true(r.p && at(0, 45) == 0.0 && noticed("1 negative candela values: taken as 0"));
     read_text("IESNA:LM-63-2002\nTILT=NONE\n" HEADER("1.5") WEB3);
-    assert_true(r.p && noticed("t:4: 1.5 behind the ballast factor, where LM-63-2002 has 1: ignored"));
+    assert_true(r.p &&
+                noticed("t:4: 1.5 behind the ballast factor, where LM-63-2002 has 1: ignored"));
     read_text("IESNA91\nTILT=NONE\n" HEADER("1") "5 45 80 0 100 50 10\n");
     assert_true(r.p && at(0, 4) == 0.0 && at(0, 81) == 0.0 && noticed("dark outside"));
     read_text("IESNA91\nTILT=NONE\n" HEADER("1") "0 45 90 0 0 0 0\n");

@@ -83,7 +83,8 @@ TEST(labels_are_always_whole_utf_8)
     assert_int_equal(strlen(s), 450);
     assert_false(strncmp(s, "あああ", 9));
     label(LIGHTING "\x81\xad"); /* no such character */
-    label("a\x01\x02\x7f" "b");
+    label("a\x01\x02\x7f"
+          "b");
     assert_string_equal(r.p->manufacturer, "a   b");
 }
 

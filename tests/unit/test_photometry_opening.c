@@ -60,14 +60,16 @@ TEST(points_rectangles_and_boxes_are_the_same_in_all_versions)
 
 TEST(round_openings_of_1986_and_1991)
 {
-    CHECK(0, 1, { "-1 0 0", OPENING_DISC, 1, 1, 0 }, { "-1 0 3", OPENING_VERTICAL_CYLINDER, 1, 1, 3 },
-          { "-1 2 0", OPENING_DISC, 2, 1, 0 }, { "-1 2 3", OPENING_SPHERE, 2, 1, 3 });
+    CHECK(0, 1, { "-1 0 0", OPENING_DISC, 1, 1, 0 },
+          { "-1 0 3", OPENING_VERTICAL_CYLINDER, 1, 1, 3 }, { "-1 2 0", OPENING_DISC, 2, 1, 0 },
+          { "-1 2 3", OPENING_SPHERE, 2, 1, 3 });
 }
 
 TEST(round_openings_of_1995)
 {
-    CHECK(2, 2, { "-1 0 0", OPENING_DISC, 1, 1, 0 }, { "-1 0 3", OPENING_VERTICAL_CYLINDER, 1, 1, 3 },
-          { "-1 0 -1", OPENING_SPHERE, 1, 1, 1 }, { "0 2 -3", OPENING_CYLINDER_ALONG, 2, 3, 3 },
+    CHECK(2, 2, { "-1 0 0", OPENING_DISC, 1, 1, 0 },
+          { "-1 0 3", OPENING_VERTICAL_CYLINDER, 1, 1, 3 }, { "-1 0 -1", OPENING_SPHERE, 1, 1, 1 },
+          { "0 2 -3", OPENING_CYLINDER_ALONG, 2, 3, 3 },
           { "2 0 -3", OPENING_CYLINDER_ACROSS, 3, 2, 3 },
           { "-1 2 3", OPENING_VERTICAL_CYLINDER, 2, 1, 3 },
           { "1 -2 3", OPENING_VERTICAL_CYLINDER, 2, 1, 3 }, { "-1 2 -3", OPENING_SPHERE, 2, 1, 3 },
@@ -174,7 +176,7 @@ static const photometry *read_with(const char *tilt, const char *version)
     snprintf(text, sizeof text, "%s\nTILT=%s\n%s", version, tilt, NUMBERS);
     write_file("build/tilted/lamp.ies", text);
     finish(NULL);
-    r.n.a = &r.a;
+    r.n.a      = &r.a;
     return r.p = photometry_read(&r.a, "build/tilted/lamp.ies", &r.n, &r.err);
 }
 

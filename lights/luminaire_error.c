@@ -32,8 +32,8 @@
  *
  *     |I~ - I(0)| <= G kappa + a delta^2 + b delta,   and no more than the range of I in the ball
  *
- * with G, the range, a and b tabulated by the band of gamma between two rings of the web, and by
- * epsilon, halved from row to row. Where the web ends while there is light, G and b are infinite.
+ * with G, the range, a and b tabulated by gamma in even steps, and by epsilon, halved from rung to
+ * rung. Where the web ends while there is light, G and b are infinite.
  *
  * Solids: with I and A between bounds over the ball, E is the integral of L w over directions w of
  * the opening, whose cone holds what the outline of area A(c) would fill at D + z, and is held by
@@ -43,10 +43,7 @@
 
 #include "core/color.h"
 
-enum { RUNGS = 8, FIGURES = 4 }; /* slope G, range, a, b */
-
-/* asin(rho) for rho = 1/2, 1/4, ... */
-static double rung_radius(int rung) { return asin(ldexp(0.5, -rung)); }
+enum { HOMES = 128, RUNGS = 8, FIGURES = 4 }; /* steps of gamma, of epsilon; G, range, a, b */
 
 /* What a web does between two rings, or beyond the last; at its upper end: the ring's kink. */
 typedef struct band {
@@ -57,10 +54,12 @@ typedef struct band {
     double twist;     /* cd/rad^2, |d/dgamma (I_C / sin gamma)| */
     double fold;      /* cd/rad, the change of slope across a plane */
     double kink;      /* cd/rad, the change of slope across the ring at `to`; infinite: a step */
+    double cot_from, cot_to;
 } band;
 
 typedef struct web_view {
     const photometry *web;
+    band *band;
     int bands;
     double plane_step; /* rad, the least between two planes */
 } web_view;
@@ -151,6 +150,13 @@ static double kink_of(const photometry *w, int ring)
     return most;
 }
 
+/* |cot|; at a pole, infinite. */
+static double cot_of(double gamma)
+{
+    double s = sin(gamma);
+    return s > 1e-9 ? fabs(cos(gamma)) / s : HUGE_VAL;
+}
+
 /* Band 0 lies before the first ring, the last one behind the last ring: both dark. */
 static band band_of(const photometry *w, int number)
 {
@@ -163,93 +169,123 @@ static band band_of(const photometry *w, int number)
     b.low = inside ? HUGE_VAL : 0.0;
     for (int i = 0; inside && i < w->plane_count; i++)
         add_plane(&b, w, i, number - 1);
-    b.slope = hypot(b.slope, b.steep);
-    b.kink  = number == rings || at_pole ? 0.0 : kink_of(w, number);
+    b.slope    = hypot(b.slope, b.steep);
+    b.cot_from = cot_of(b.from);
+    b.cot_to   = cot_of(b.to);
+    b.kink     = number == rings || at_pole ? 0.0 : kink_of(w, number);
     return b;
 }
 
-/* The most |cot| between two angles of [0, pi]. */
-static double most_cot(double from, double to)
+/* The directions of one step of gamma, and what a ball about one of them may reach. */
+typedef struct home {
+    double from, to;  /* rad */
+    double radius;    /* rad, of the ball */
+    double low, high; /* rad, in reach, within [0, pi] */
+    double cot_low, cot_high;
+} home;
+
+static home home_of(int step, int rung)
 {
-    double s = fmin(sin(fmax(from, 0.0)), sin(fmin(to, M_PI)));
-    return s > 1e-9 ? fmax(fabs(cos(from)), fabs(cos(to))) / s : HUGE_VAL;
+    const double rounding = 1e-6; /* of gamma, in floats */
+    home h                = { .from   = step * (M_PI / HOMES) - rounding,
+                              .to     = (step + 1) * (M_PI / HOMES) + rounding,
+                              .radius = asin(ldexp(0.5, -rung)) }; /* rho = 1/2, 1/4, ... */
+    h.low                 = fmax(h.from - h.radius, 0.0);
+    h.high                = fmin(h.to + h.radius, M_PI);
+    h.cot_low             = cot_of(h.low);
+    h.cot_high            = cot_of(h.high);
+    return h;
 }
 
-/* The most that kinks of rings add up to, of those that one ball reaches whose centre is in `home`.
- * A great circle may cross a ring twice, but near a pole alone steeply both times. */
-static double kinks_in_reach(const band *bands, int count, const band *home, double radius)
+/* Half the sum of kink (radius - distance) over the rings that a ball about gamma reaches. A great
+ * circle may cross a ring twice, but near a pole alone steeply both times: between the crossings
+ * t_gamma turns by at most 2 epsilon cot(gamma), below 1 if the ring is 3 epsilon from the pole. */
+static double kinks_about(const web_view *v, double gamma, double radius)
 {
-    double most = 0.0;
-    for (int i = 0; i < count - 1; i++) {
-        double sum = 0.0, least = bands[i].to;
-        if (least < home->from - radius || least > home->to + radius)
-            continue;
-        for (int k = i; k < count - 1 && bands[k].to <= least + 2.0 * radius &&
-                        bands[k].to <= home->to + radius;
-             k++) {
-            double cot = most_cot(bands[k].to - radius, bands[k].to + radius);
-            sum += bands[k].kink * (bands[k].to <= radius || bands[k].to >= M_PI - radius ||
-                                            2.0 * radius * cot > 1.0
-                                        ? 2.0
-                                        : 1.0);
-        }
-        most = fmax(most, sum);
+    double sum = 0.0;
+    for (int i = 0; i < v->web->gamma_count; i++) {
+        double at    = v->band[i].to;
+        double depth = radius - fabs(at - gamma);
+        if (depth >= 0.0 && v->band[i].kink > 0.0)
+            sum += v->band[i].kink * (fmin(at, M_PI - at) < 3.0 * radius ? depth : 0.5 * depth);
     }
-    return most;
+    return sum;
+}
+
+/* The most of that for a centre within kappa of the home, which is at one of its ends or at a ring;
+ * over the radius, as that is how it is tabulated: it is convex, and 0 for no radius. */
+static double kinks_in_reach(const web_view *v, const home *h)
+{
+    double sine  = sin(h->radius);
+    double kappa = 0.5 * sine * sine / (1.0 - sine * sine);
+    double from = h->from - kappa, to = h->to + kappa;
+    double most = fmax(kinks_about(v, from, h->radius), kinks_about(v, to, h->radius));
+    for (int i = 0; i < v->web->gamma_count; i++) {
+        double at = v->band[i].to;
+        if (at >= from && at <= to)
+            most = fmax(most, kinks_about(v, at, h->radius));
+        if (v->band[i].kink == HUGE_VAL && at >= h->low && at <= h->high)
+            return HUGE_VAL;
+    }
+    return most / h->radius;
 }
 
 /* How many planes a great circle crosses at most within the ball. */
-static double planes_in_reach(const web_view *v, const band *home, double radius)
+static double planes_in_reach(const web_view *v, const home *h)
 {
-    double s     = fmin(sin(home->from), sin(home->to));
-    double ratio = sin(radius) / fmax(s, 1e-9);
+    double s     = fmin(sin(fmax(h->from, 0.0)), sin(fmin(h->to, M_PI)));
+    double ratio = sin(h->radius) / fmax(s, 1e-9);
     double width = ratio < 1.0 ? 2.0 * asin(ratio) : M_PI;
     return floor(width / v->plane_step) + 1.0;
 }
 
-static void add_rung(const web_view *v, const band *bands, const band *home, int rung, float *out)
+/* out: the figures of one home and rung. Cells where the bound by cot(gamma) is the lesser go into
+ * a, those at the poles into b. */
+static void add_rung(const web_view *v, const home *h, float *out)
 {
-    double radius = rung_radius(rung), slope = 0.0, twist = 0.0, fold = 0.0;
-    double turn = 0.0, steep = 0.0, low = HUGE_VAL, high = 0.0;
+    double slope = 0.0, twist = 0.0, fold = 0.0, low = HUGE_VAL, high = 0.0;
+    double turn = 0.0, steep = 0.0;
     for (int i = 0; i < v->bands; i++) {
-        const band *b = &bands[i];
-        if (b->to < home->from - radius || b->from > home->to + radius || b->to <= b->from)
+        const band *b = &v->band[i];
+        if (b->to < h->low || b->from > h->high || b->to <= b->from)
             continue;
-        double cot = most_cot(fmax(b->from, home->from - radius), fmin(b->to, home->to + radius));
-        low        = fmin(low, b->low);
-        high       = fmax(high, b->high);
-        slope      = fmax(slope, b->slope);
-        twist      = fmax(twist, b->twist);
-        fold       = fmax(fold, b->fold);
-        steep      = fmax(steep, b->steep);
-        turn       = fmax(turn, b->steep > 0.0 ? b->steep * cot : 0.0);
+        double cot_from = b->from > h->low ? b->cot_from : h->cot_low;
+        double cot_to   = b->to < h->high ? b->cot_to : h->cot_high;
+        double bend     = b->steep > 0.0 ? b->steep * fmax(cot_from, cot_to) : 0.0;
+        bool even       = 0.5 * h->radius * bend < b->steep;
+        low             = fmin(low, b->low);
+        high            = fmax(high, b->high);
+        slope           = fmax(slope, b->slope);
+        twist           = fmax(twist, b->twist);
+        fold            = fmax(fold, b->fold);
+        turn            = fmax(turn, even ? bend : 0.0);
+        steep           = fmax(steep, even ? 0.0 : b->steep);
     }
-    double kinks = kinks_in_reach(bands, v->bands, home, radius);
-    double folds = fold > 0.0 ? fold * planes_in_reach(v, home, radius) : 0.0;
-    bool even    = 0.5 * radius * turn < steep;
+    double kinks = kinks_in_reach(v, h);
+    double folds = fold > 0.0 ? fold * planes_in_reach(v, h) : 0.0;
     out[0]       = (float)(kinks < HUGE_VAL ? slope : kinks);
     out[1]       = (float)(high - low);
-    out[2]       = (float)(0.5 * (twist + (even ? turn : 0.0)));
-    out[3]       = (float)(0.5 * (kinks + folds) + (even ? 0.0 : steep));
+    out[2]       = (float)(0.5 * (twist + turn));
+    out[3]       = (float)(kinks + 0.5 * folds + steep);
 }
 
 bool luminaire_make_error(luminaire *l, const photometry *web, arena *a, lux_error *err)
 {
-    web_view v  = { .web = web, .bands = web->gamma_count + 1, .plane_step = 2.0 * M_PI };
     arena rough = { 0 };
-    band *bands = arena_array(&rough, band, (size_t)v.bands, err);
-    float *out  = arena_array(a, float, (size_t)v.bands *RUNGS *FIGURES, err);
+    web_view v  = { .web = web, .bands = web->gamma_count + 1, .plane_step = 2.0 * M_PI };
+    v.band      = arena_array(&rough, band, (size_t)v.bands, err);
+    float *out  = v.band ? arena_array(a, float, HOMES *RUNGS *FIGURES, err) : NULL;
     for (int i = 0; web->plane_count > 1 && i < web->plane_count; i++)
         v.plane_step = fmin(v.plane_step, plane_width(web, i));
-    for (int i = 0; bands && i < v.bands; i++)
-        bands[i] = band_of(web, i);
-    for (int i = 0; bands && out && i < v.bands; i++)
-        for (int k = 0; k < RUNGS; k++)
-            add_rung(&v, bands, &bands[i], k, out + (i * RUNGS + k) * FIGURES);
-    bool made = bands && out;
+    for (int i = 0; out && i < v.bands; i++)
+        v.band[i] = band_of(web, i);
+    for (int i = 0; out && i < HOMES * RUNGS; i++) {
+        home h = home_of(i / RUNGS, i % RUNGS);
+        add_rung(&v, &h, out + i * FIGURES);
+    }
     arena_clear(&rough);
     l->error = out;
-    return made;
+    return out != NULL;
 }
 
 /* ---- asking ------------------------------------------------------------------------------ */
@@ -261,17 +297,10 @@ typedef struct vweb_change {
 /* Toward gamma, in a ball of the radius asin(rho), rho < 1/2. */
 static vweb_change change_at(const luminaire *l, vfloat gamma, vfloat rho, vmask active)
 {
-    int rings   = l->axes[1].count;
-    vint cell   = rings > 1 ? vtable_cell(&l->axes[1], rings - 1,
-                                          vmin(vmax(gamma, vsplat(l->axes[1].at[0])),
-                                               vsplat(l->axes[1].at[rings - 1])))
-                            : vsplat_int(0);
-    vint number = vselect_int(gamma < l->gamma_from, vsplat_int(0),
-                              vselect_int(gamma > l->gamma_to, vsplat_int(rings), cell + 1));
-
+    vint step = vto_int(vmin(gamma * (float)(HOMES / M_PI), vsplat((float)(HOMES - 1))));
     vint rung = vto_int(vmin(-vlog2(rho) - 1.0f - 1e-5f, vsplat((float)(RUNGS - 1))));
     rung      = vselect_int(rung < 0, vsplat_int(0), rung);
-    vint at   = vkeep_int(active, (number * RUNGS + rung) * FIGURES);
+    vint at   = vkeep_int(active, (step * RUNGS + rung) * FIGURES);
     return (vweb_change){ vgather(l->error, at), vgather(l->error, at + 1),
                           vgather(l->error, at + 2), vgather(l->error, at + 3) };
 }

@@ -83,23 +83,30 @@ static vmask area_hit(const light *self, const vvec3 *p, const vvec3 *wi, vmask 
 static vfloat area_weight(const light *self, const vvec3 *p, const vvec3 *n, vmask active)
 {
     const luminaire *l = (const luminaire *)self;
-    const float dim    = 0.02f; /* of the peak: where the nearest place is dark, others may shine */
+    const float dim    = 0.02f; /* of the peak: where the nearest place is dark, others may
+                                   shine, the more so the nearer */
     const float diagonal = 2.0f * l->opening.radius;
     const float spread =
         l->opening.area > 0.0f ? l->opening.area * (1.0f / WARP_PI) : 1e-4f * diagonal * diagonal;
-    vvec3 side   = from_centre(l, p);
-    vvec3 away   = vsub(size_of(side), vspread(l->opening.half));
-    vvec3 to     = { -vmax(away.x, vsplat(0.0f)), -vmax(away.y, vsplat(0.0f)),
-                     -vmax(away.z, vsplat(0.0f)) };
-    vfloat dist2 = vdot(to, to);
-    vvec3 wi     = vscale(from_own(l, mirror(to, side)), 1.0f / vsqrt(dist2));
+    vvec3 side    = from_centre(l, p);
+    vvec3 away    = vsub(size_of(side), vspread(l->opening.half));
+    vvec3 to      = { -vmax(away.x, vsplat(0.0f)), -vmax(away.y, vsplat(0.0f)),
+                      -vmax(away.z, vsplat(0.0f)) };
+    vfloat dist2  = vdot(to, to);
+    vmask outside = dist2 > 0.0f;
+    to            = vselect3(outside, to, vneg(size_of(side))); /* in the box: toward the centre */
+    vvec3 wi      = vscale(from_own(l, mirror(to, side)), 1.0f / vlength(to));
 
-    vfloat cd  = { 0 };
-    vmask lit  = vluminaire_candela(l, wi, active & (dist2 > 0.0f), &cd);
-    cd         = vmax(vkeep(lit, cd), vsplat(dim * l->most));
-    vfloat k   = diagonal / vsqrt(dist2 + diagonal * diagonal);
-    vfloat cos = vselect(dist2 > 0.0f, (vdot(wi, *n) + k) / (1.0f + k), vsplat(1.0f));
-    cos        = vmax(cos, vsplat(0.0f));
+    /* About the horizon: a ramp (c + k)^2 / 4k between -k and k */
+    vfloat k    = diagonal / vsqrt(dist2 + diagonal * diagonal);
+    vfloat c    = vdot(wi, *n);
+    vfloat over = vmax(c + k, vsplat(0.0f));
+    vfloat cos  = vselect(c > k, c, over * over / (4.0f * k));
+    cos         = vselect(outside, cos, vsplat(1.0f));
+
+    vfloat cd = { 0 };
+    vmask lit = vluminaire_candela(l, wi, active, &cd);
+    cd        = vmax(vkeep(lit, cd), (dim + 0.5f * k * k) * l->most);
     return vkeep(active, rgb_luminance(l->scale) * cd * cos / (dist2 + spread));
 }
 

@@ -5,7 +5,11 @@
 #include "tests/test.h"
 
 double web_isotropic(double plane, double gamma) { return (void)plane, (void)gamma, 1.0; }
-double web_lambertian(double plane, double gamma) { return (void)plane, fmax(cos(gamma), 0.0); }
+double web_lambertian(double plane, double gamma)
+{
+    double c = cos(gamma);
+    return (void)plane, c > 1e-9 ? c : 0.0; /* dark at 90 deg too */
+}
 double web_both_sides(double plane, double gamma) { return (void)plane, fabs(cos(gamma)); }
 double web_spot(double plane, double gamma)
 {

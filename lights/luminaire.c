@@ -1,4 +1,6 @@
-/* lights/luminaire.c -- a point that shines as a measured luminaire does.
+/* lights/luminaire.c -- a lamp that shines as a measured luminaire does: from a point.
+ *
+ * Those that have a luminous opening shine from it: luminaire_area.c. From a point,
  *
  *     E = s I(C, gamma) / d^2        [W/m^2]
  *
@@ -16,56 +18,24 @@
  *
  * and for an aim straight up, which has no shortest way, by half a turn about C0.
  */
+#include "lights/luminaire.h"
+
 #include "core/color.h"
-#include "core/packet_math.h"
-#include "core/table.h"
 #include "core/transform.h"
-#include "lights/light.h"
-#include "lights/photometry.h"
 
 /* An aim this close to straight up (sine of the angle) is straight up: a scene's matrices are
  * good to about 1e-7, and their rounding must not choose which way the luminaire turns over. */
 static const double STRAIGHT_UP = 1e-6;
 
-typedef struct luminaire {
-    light base;
-    vec3 position;      /* m */
-    vec3 c0, c90, axis; /* unit: where C0, C90 and gamma 0 point */
-    vec3 scale;         /* W/sr for each candela */
-    double lumens;      /* cd sr: the integral of the web */
-    vec3 strongest;     /* unit: where the largest candela points */
-    float most;         /* cd: the largest */
-    const float *candela;
-    table_axis axes[2];         /* rad: C, gamma */
-    float gamma_from, gamma_to; /* rad: dark outside of them */
-    float down_least;           /* cosine of gamma_to, less a rounding: below it all is dark */
-} luminaire;
-
-static vmask luminaire_sample(const light *self, const vvec3 *p, vfloat s, vfloat t, vmask active,
-                              vlight_sample *out)
+vmask luminaire_point(const luminaire *l, const vvec3 *p, vmask active, vlight_sample *out)
 {
-    const luminaire *l = (const luminaire *)self;
-    (void)s, (void)t; /* there is but one place to draw */
-
     vvec3 to     = vsub(vspread(l->position), *p);
     vfloat dist2 = vdot(to, to);
     vfloat dist  = vsqrt(dist2);
     vvec3 wi     = vscale(to, 1.0f / dist);
 
-    /* Where the point lies in the luminaire's frame */
-    vfloat x    = -vdot(wi, vspread(l->c0));
-    vfloat y    = -vdot(wi, vspread(l->c90));
-    vfloat down = -vdot(wi, vspread(l->axis));
-    if (!vany(active & (down >= l->down_least))) {
-        *out = (vlight_sample){ 0 };
-        return (vmask){ 0 };
-    }
-    vfloat gamma = vatan2(vsqrt(x * x + y * y), down);
-    vfloat plane = l->axes[0].count > 1 ? vatan2(y, x) : vsplat(0.0f);
-
-    vfloat cd = vtable_lookup2(l->candela, l->axes, plane, gamma);
-    vmask lit =
-        active & (dist2 > 0.0f) & (gamma >= l->gamma_from) & (gamma <= l->gamma_to) & (cd > 0.0f);
+    vfloat cd = { 0 };
+    vmask lit = vluminaire_candela(l, wi, active & (dist2 > 0.0f), &cd);
 
     out->wi   = vkeep3(lit, wi);
     out->dist = vkeep(lit, dist);
@@ -74,35 +44,46 @@ static vmask luminaire_sample(const light *self, const vvec3 *p, vfloat s, vfloa
     return lit;
 }
 
-static vec3 luminaire_flux(const light *self)
+static vmask point_sample(const light *self, const vvec3 *p, vfloat s, vfloat t, vmask active,
+                          vlight_sample *out)
+{
+    (void)s, (void)t; /* there is but one place to draw */
+    return luminaire_point((const luminaire *)self, p, active, out);
+}
+
+vec3 luminaire_flux(const light *self)
 {
     const luminaire *l = (const luminaire *)self;
     return v3_scale(l->scale, (float)l->lumens);
 }
 
-static vec3 luminaire_peak(const light *self, vec3 *toward)
+vec3 luminaire_peak(const light *self, vec3 *toward)
 {
     const luminaire *l = (const luminaire *)self;
     *toward            = l->strongest;
     return v3_scale(l->scale, l->most);
 }
 
-static light_bounds luminaire_bounds(const light *self)
+/* Of the cones about the axis and about its opposite that hold all light, the narrower. */
+light_bounds luminaire_bounds(const light *self)
 {
     const luminaire *l = (const luminaire *)self;
-    return (light_bounds){ .low        = l->position,
-                           .high       = l->position,
-                           .axis       = l->axis,
+    bool down          = l->down_least >= -l->down_most;
+    vec3 far           = l->reach;
+    vec3 at            = l->position;
+    return (light_bounds){ .low        = { at.x - far.x, at.y - far.y, at.z - far.z },
+                           .high       = { at.x + far.x, at.y + far.y, at.z + far.z },
+                           .axis       = down ? l->axis : v3_scale(l->axis, -1.0f),
                            .cos_spread = 1.0f,
-                           .cos_reach  = l->down_least > -1.0f ? l->down_least : -1.0f,
+                           .cos_reach  = fmaxf(down ? l->down_least : -l->down_most, -1.0f),
                            .peak       = rgb_luminance(l->scale) * l->most };
 }
 
-static const light_type luminaire_type = { .name   = "luminaire",
-                                           .sample = luminaire_sample,
-                                           .flux   = luminaire_flux,
-                                           .peak   = luminaire_peak,
-                                           .bounds = luminaire_bounds };
+static const light_type luminaire_point_type = { .name   = "luminaire",
+                                                 .sample = point_sample,
+                                                 .flux   = luminaire_flux,
+                                                 .peak   = luminaire_peak,
+                                                 .bounds = luminaire_bounds };
 
 /* ---- making one ------------------------------------------------------------------------- */
 
@@ -117,18 +98,42 @@ static dvec3 turn_from_down(dvec3 v, dvec3 a)
     return d3_add(d3_add(v, nv), d3_scale(nnv, over));
 }
 
-static void make_frame(luminaire *l, vec3 aim, float rotate)
+static void make_frame(luminaire *l, const luminaire_desc *d)
 {
-    dvec3 a   = d3_from(aim);
-    double r  = (double)rotate;
-    a         = d3_scale(a, 1.0 / d3_length(a));
+    dvec3 a = d3_from(d->aim);
+    a       = d3_scale(a, 1.0 / d3_length(a));
+    l->axis = d3_to_float(a);
+    if (v3_length(d->c0) > 0.0f) {
+        dvec3 c0 = d3_from(d->c0);
+        c0       = d3_sub(c0, d3_scale(a, d3_dot(c0, a)));
+        c0       = d3_scale(c0, 1.0 / d3_length(c0));
+        l->c0    = d3_to_float(c0);
+        l->c90   = d3_to_float(d3_cross(c0, a));
+        return;
+    }
+    double r  = (double)d->rotate;
     dvec3 c0  = { cos(r), sin(r), 0.0 };
     dvec3 c90 = { -sin(r), cos(r), 0.0 };
     bool up   = a.z > 0.0 && hypot(a.x, a.y) < STRAIGHT_UP;
+    l->c0     = d3_to_float(up ? c0 : turn_from_down(c0, a));
+    l->c90    = d3_to_float(up ? d3_scale(c90, -1.0) : turn_from_down(c90, a));
+}
 
-    l->c0   = d3_to_float(up ? c0 : turn_from_down(c0, a));
-    l->c90  = d3_to_float(up ? d3_scale(c90, -1.0) : turn_from_down(c90, a));
-    l->axis = d3_to_float(a);
+/* Places the opening: its own axes and the box around it, as the world has them. */
+static void make_opening(luminaire *l, const photometry *web)
+{
+    double along = (double)web->length_along_deg * (M_PI / 180.0);
+    dvec3 c0 = d3_from(l->c0), c90 = d3_from(l->c90);
+    dvec3 length  = d3_add(d3_scale(c0, cos(along)), d3_scale(c90, sin(along)));
+    dvec3 width   = d3_add(d3_scale(c0, -sin(along)), d3_scale(c90, cos(along)));
+    vec3 axes[3]  = { d3_to_float(length), d3_to_float(width), l->axis };
+    float half[3] = { l->opening.half.x, l->opening.half.y, l->opening.half.z };
+    for (int i = 0; i < 3; i++) {
+        vec3 e = l->own[i] = axes[l->opening.axis[i]];
+        l->reach.x += fabsf(e.x) * half[i];
+        l->reach.y += fabsf(e.y) * half[i];
+        l->reach.z += fabsf(e.z) * half[i];
+    }
 }
 
 /* A copy of angles in rad. */
@@ -138,6 +143,30 @@ static const float *radians(arena *a, const float *deg, int count, lux_error *er
     for (int i = 0; rad && i < count; i++)
         rad[i] = (float)((double)deg[i] * (M_PI / 180.0));
     return rad;
+}
+
+static bool ring_is_dark(const photometry *web, int ring)
+{
+    for (int i = 0; i < web->plane_count; i++)
+        if (web->candela[i * web->gamma_count + ring] > 0.0f)
+            return false;
+    return true;
+}
+
+/* The angles gamma between which there is light, less a rounding of their cosines. */
+static void find_cone(luminaire *l, const photometry *web)
+{
+    int first = 0, last = web->gamma_count - 1;
+    while (first < last && ring_is_dark(web, first + 1))
+        first++;
+    while (last > 0 && ring_is_dark(web, last - 1))
+        last--;
+    if (!ring_is_dark(web, 0))
+        first = 0;
+    if (!ring_is_dark(web, web->gamma_count - 1))
+        last = web->gamma_count - 1;
+    l->down_least = (float)cos((double)web->gamma_deg[last] * (M_PI / 180.0)) - 1e-5f;
+    l->down_most  = (float)cos((double)web->gamma_deg[first] * (M_PI / 180.0)) + 1e-5f;
 }
 
 /* The web as tables have it. From straight down to straight up no rounding of gamma is dark. */
@@ -158,7 +187,7 @@ static bool make_table(luminaire *l, const photometry *web, arena *a, lux_error 
         l->gamma_from = -1.0f;
     if (web->gamma_deg[web->gamma_count - 1] >= 180.0f)
         l->gamma_to = 4.0f;
-    l->down_least = (float)cos(fmin((double)l->gamma_to, M_PI)) - 1e-5f;
+    find_cone(l, web);
     return true;
 }
 
@@ -188,26 +217,52 @@ static bool check_web(const photometry *web, lux_error *err)
            table_axis_check(&gamma, "luminaire: angles gamma", err);
 }
 
-const light *light_luminaire(arena *a, const luminaire_desc *d, lux_error *err)
+static bool check_sizes(const photometry *web, lux_error *err)
 {
-    float length = v3_length(d->aim);
+    const float most    = 1e6f; /* m, whose fourth power is still a float */
+    const float sizes[] = { web->length, web->width, web->height };
+    for (int i = 0; i < 3; i++)
+        if (!(sizes[i] >= 0.0f && sizes[i] <= most))
+            return failed(err, ERR_ARGUMENT,
+                          "luminaire: a luminous opening of %g m, 0 to %g m was expected",
+                          (double)sizes[i], (double)most);
+    return isfinite(web->length_along_deg) ||
+           failed(err, ERR_ARGUMENT, "luminaire: the opening's length lies along no C plane");
+}
+
+static bool check(const luminaire_desc *d, lux_error *err)
+{
+    float length = v3_length(d->aim), c0 = v3_length(d->c0);
     if (!(length > 0.0f && length < INFINITY))
         return failed(err, ERR_ARGUMENT, "luminaire: the aim has no length");
+    if (!(v3_length(v3_cross(d->aim, d->c0)) > 1e-6f * length * c0 || c0 == 0.0f))
+        return failed(err, ERR_ARGUMENT, "luminaire: C0 points where the aim does");
     if (!isfinite(d->rotate))
         return failed(err, ERR_ARGUMENT, "luminaire: rotate is not finite");
     if (!v3_nonnegative(d->scale))
         return failed(err, ERR_ARGUMENT, "luminaire: a scale is not >= 0 W/sr for each candela");
-    if (!check_web(d->web, err))
-        return NULL;
+    return check_web(d->web, err) && (d->point || check_sizes(d->web, err));
+}
 
+const light *light_luminaire(arena *a, const luminaire_desc *d, lux_error *err)
+{
+    if (!check(d, err))
+        return NULL;
     luminaire *l = arena_new(a, luminaire, err);
     if (!l || !make_table(l, d->web, a, err))
         return NULL;
-    l->base     = (light){ &luminaire_type };
     l->position = d->position;
     l->scale    = d->scale;
     l->lumens   = d->web->luminaire_lumens;
-    make_frame(l, d->aim, d->rotate);
+    make_frame(l, d);
     find_strongest(l, d->web);
-    return &l->base;
+
+    l->base = (light){ &luminaire_point_type };
+    if (!d->point)
+        l->opening = opening_of(d->web);
+    if (!l->opening.type)
+        return &l->base;
+    l->base = (light){ l->opening.type->meet ? &luminaire_area_type : &luminaire_line_type };
+    make_opening(l, d->web);
+    return luminaire_make_error(l, d->web, a, err) ? &l->base : NULL;
 }

@@ -219,7 +219,9 @@ TEST(far_away_it_stays_exact)
     double worst  = 0;
     for (int i = 0; i < 400; i++) {
         vec3 centre = { 0, 0, 0 }, aim = random_direction(&seed), n = random_direction(&seed);
-        vec3 at = v3_scale(random_direction(&seed), powf(10, 3 * random_unit(&seed)) * 3);
+        float r = i % 4 == 1 ? 60 + 10 * random_unit(&seed) /* where the way to it changes */
+                             : powf(10, 3 * random_unit(&seed)) * 3;
+        vec3 at = v3_scale(random_direction(&seed), r);
         if (i % 2) { /* nearly edge-on: the horizon cuts it */
             vec3 side = v3_cross(n, at);
             n         = v3_scale(side, 1 / v3_length(side));

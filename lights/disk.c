@@ -21,9 +21,9 @@
  * ends of both axes,
  *
  *     q(v) = ca cb / (2 pi (ca^2 cos^2 v + cb^2 sin^2 v)),  ca = cos(a/2), cb = cos(b/2)
- *     tan v = (ca / cb) tan(2 pi s)
+ *     tan v = (ca / cb) tan f,  (r, f) an even place in the unit disk
  *
- * and in the slice of v samples are even in solid angle: 1 - cos theta = t (1 - c). The density
+ * and in the slice of v samples are even in solid angle: 1 - cos theta = r^2 (1 - c). The density
  *
  *     pdf = q (1 + c) / (sin a sin b)
  *
@@ -132,7 +132,7 @@ static vmask disk_sample(const light *self, const vvec3 *p, vfloat s, vfloat t, 
     vellipse e          = ellipse_from(l, p, active);
     vellipse_frame f    = frame_of(l, &e);
 
-    /* tan v = (ca / cb) tan f, of the place (sqrt(t), f) in the unit disk */
+    /* tan v = (ca / cb) tan f */
     vfloat x, y;
     vsquare_to_disk(s, t, &x, &y);
     vfloat cos2  = f.cb2 * x * x;
@@ -141,7 +141,7 @@ static vmask disk_sample(const light *self, const vvec3 *p, vfloat s, vfloat t, 
     vfloat cos_v = x * vsqrt(f.cb2 * both);
     vfloat sin_v = y * vsqrt(f.ca2 * both);
 
-    /* 1 - cos theta = t (1 - c), and 1 - c = sin^2 / (1 + c) */
+    /* 1 - cos theta = r^2 (1 - c), and 1 - c = sin^2 / (1 + c) */
     vfloat cos2_v = cos2 * both;
     vfloat c      = rim_cosine(&f, cos2_v);
     vfloat x_rim  = f.sin_a * cos_v;

@@ -38,13 +38,12 @@ static double seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static void *known(const void *made, const lux_error *err)
+static void require(const void *made, const lux_error *err)
 {
     if (!made) {
         fprintf(stderr, "bench_lights: %s\n", err->text);
         exit(1);
     }
-    return (void *)(uintptr_t)made;
 }
 
 /* ---- the lamps, each twice ------------------------------------------------------------------ */
@@ -85,7 +84,8 @@ static const light *make(arena *a, plain_kind kind, lux_error *err)
 /* An axis of a web, in rad */
 static const float *radians(arena *a, const float *deg, int count, lux_error *err)
 {
-    float *rad = known(arena_array(a, float, (size_t)count, err), err);
+    float *rad = arena_array(a, float, (size_t)count, err);
+    require(rad, err);
     for (int i = 0; i < count; i++)
         rad[i] = (float)((double)deg[i] * (M_PI / 180.0));
     return rad;
@@ -107,16 +107,17 @@ static plain_light make_plain(arena *a, plain_kind kind, lux_error *err)
         l.u = (vec3){ -1, 0, 0 };
         l.v = (vec3){ 0, 1, 0 };
     } else if (kind == PLAIN_LUMINAIRE) {
-        const photometry *web = known(photometry_read(a, "data/office/panel.ldt", NULL, err), err);
-        l.u                   = (vec3){ 1, 0, 0 };
-        l.v                   = (vec3){ 0, 1, 0 };
-        l.planes              = web->plane_count;
-        l.gammas              = web->gamma_count;
-        l.plane               = radians(a, web->plane_deg, l.planes, err);
-        l.gamma               = radians(a, web->gamma_deg, l.gammas, err);
-        l.candela             = web->candela;
-        l.plane_density       = (float)l.planes / 6.28318531f;
-        l.gamma_density       = (float)(l.gammas - 1) / (l.gamma[l.gammas - 1] - l.gamma[0]);
+        const photometry *web = photometry_read(a, "data/office/panel.ldt", NULL, err);
+        require(web, err);
+        l.u             = (vec3){ 1, 0, 0 };
+        l.v             = (vec3){ 0, 1, 0 };
+        l.planes        = web->plane_count;
+        l.gammas        = web->gamma_count;
+        l.plane         = radians(a, web->plane_deg, l.planes, err);
+        l.gamma         = radians(a, web->gamma_deg, l.gammas, err);
+        l.candela       = web->candela;
+        l.plane_density = (float)l.planes / 6.28318531f;
+        l.gamma_density = (float)(l.gammas - 1) / (l.gamma[l.gammas - 1] - l.gamma[0]);
     }
     return l;
 }
@@ -272,7 +273,8 @@ int main(int argc, char **argv)
     plain_light plain[PLAIN_KINDS];
     make_points();
     for (int k = 0; k < PLAIN_KINDS; k++) {
-        l[k]     = known(make(&a, (plain_kind)k, &err), &err);
+        l[k] = make(&a, (plain_kind)k, &err);
+        require(l[k], &err);
         plain[k] = make_plain(&a, (plain_kind)k, &err);
         compare(l[k], &plain[k]);
     }

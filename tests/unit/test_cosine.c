@@ -34,12 +34,8 @@ TEST(it_falls_with_the_power_of_the_cosine)
     for (size_t k = 0; k < sizeof exponents / sizeof *exponents; k++) {
         const light *l = make(&a, exponents[k]);
         for (int i = 0; i < 1000; i++) {
-            double v[3], d2 = 0;
-            for (int c = 0; c < 3; c++) {
-                v[c] = 8.0 * ((double)random_unit(&seed) - 0.5);
-                d2 += v[c] * v[c];
-            }
-            vec3 at  = { (float)(1 + v[0]), (float)(2 + v[1]), (float)(3 + v[2]) };
+            vec3 way = v3_scale(random_point(&seed), 4);
+            vec3 at  = { 1 + way.x, 2 + way.y, 3 + way.z };
             double x = (double)at.x - 1, y = (double)at.y - 2, z = (double)at.z - 3;
             double r2    = x * x + y * y + z * z;
             double cos_a = (2 * x - y - 2 * z) / (3 * sqrt(r2));

@@ -174,7 +174,7 @@ TEST(a_thousand_places_and_tilts_agree_with_quadrature)
         i++;
     }
     assert_true(worst_closed < 1e-5);
-    assert_true(worst_sampled < 5e-3);
+    assert_true(worst_sampled < 5e-3); /* of the worst; with other seeds 3e-3 to 7e-3 */
     assert_true(cut > 200);
     arena_clear(&a);
 }
@@ -219,7 +219,9 @@ TEST(far_away_it_stays_exact)
     double worst  = 0;
     for (int i = 0; i < 400; i++) {
         vec3 centre = { 0, 0, 0 }, aim = random_direction(&seed), n = random_direction(&seed);
-        vec3 at = v3_scale(random_direction(&seed), powf(10, 3 * random_unit(&seed)) * 3);
+        float r = i % 4 == 1 ? 60 + 10 * random_unit(&seed) /* where the way to it changes */
+                             : powf(10, 3 * random_unit(&seed)) * 3;
+        vec3 at = v3_scale(random_direction(&seed), r);
         if (i % 2) { /* nearly edge-on: the horizon cuts it */
             vec3 side = v3_cross(n, at);
             n         = v3_scale(side, 1 / v3_length(side));
@@ -235,34 +237,42 @@ TEST(far_away_it_stays_exact)
     arena_clear(&a);
 }
 
-/* Cells even in area on the disk; what the pdf that rays see makes of each, by its midpoints */
-static double chi_square_at(float d, float z, uint32_t seed)
+/* Cells even in area on the disk */
+enum { ROWS = 12, COLUMNS = 16, CELLS = ROWS * COLUMNS, FINE = 16, SAMPLES = 1 << 16 };
+
+/* What the pdf that rays see makes of each, by its midpoints: in all 1, but for that rule and for
+ * floats at the edge. */
+static void expect_cells(const light *l, vvec3 p, double *expected)
 {
-    enum { ROWS = 12, COLUMNS = 16, CELLS = ROWS * COLUMNS, FINE = 16, SAMPLES = 1 << 16 };
-    arena a          = { 0 };
-    const light *l   = make(&a, (vec3){ 0, 0, 0 }, (vec3){ 0, 0, 1 }, 1);
-    vvec3 p          = vspread((vec3){ d, 0, z });
-    int count[CELLS] = { 0 };
-    double expected[CELLS], sum = 0;
+    double sum = 0, d = (double)lane(p.x, 0), z = (double)lane(p.z, 0);
     for (int c = 0; c < CELLS; c++) {
         expected[c] = 0;
         for (int f = 0; f < FINE * FINE; f++) {
             double r   = sqrt((c / COLUMNS + (f / FINE + 0.5) / FINE) / ROWS);
             double phi = 2 * pi * (c % COLUMNS + (f % FINE + 0.5) / FINE) / COLUMNS;
-            double x = r * cos(phi) - (double)d, y = r * sin(phi);
-            double r2 = x * x + y * y + (double)z * (double)z, size = sqrt(r2);
-            vvec3 wi =
-                vspread((vec3){ (float)(x / size), (float)(y / size), (float)((double)-z / size) });
+            dvec3 to   = { r * cos(phi) - d, r * sin(phi), -z };
+            double far = d3_length(to);
+            vvec3 wi   = vspread(d3_to_float(d3_scale(to, 1 / far)));
             vlight_hit h;
             if (vall(l->type->hit(l, &p, &wi, ALL_LANES, &h)))
-                expected[c] += (double)lane(h.pdf, 0) * (double)z / (r2 * size);
+                expected[c] += (double)lane(h.pdf, 0) * z / (far * far * far);
         }
         expected[c] *= pi / CELLS / (FINE * FINE);
         sum += expected[c];
     }
-    assert_near(sum, 1, 1e-3); /* of the midpoint rule, and floats at the edge */
+    assert_near(sum, 1, 1e-3);
     for (int c = 0; c < CELLS; c++)
         expected[c] *= SAMPLES / sum;
+}
+
+static double chi_square_at(float d, float z, uint32_t seed)
+{
+    arena a          = { 0 };
+    const light *l   = make(&a, (vec3){ 0, 0, 0 }, (vec3){ 0, 0, 1 }, 1);
+    vvec3 p          = vspread((vec3){ d, 0, z });
+    int count[CELLS] = { 0 };
+    double expected[CELLS];
+    expect_cells(l, p, expected);
     for (int n = 0; n < SAMPLES; n += LANES) {
         float u[LANES], v[LANES];
         for (int i = 0; i < LANES; i++) {
@@ -271,13 +281,12 @@ static double chi_square_at(float d, float z, uint32_t seed)
         }
         vlight_sample s;
         light_sample(l, &p, vload(u), vload(v), ALL_LANES, &s);
+        vvec3 place = valong(p, s.wi, s.dist);
         for (int i = 0; i < LANES; i++) {
-            double x   = (double)(lane(p.x, i) + lane(s.dist, i) * lane(s.wi.x, i));
-            double y   = (double)(lane(s.dist, i) * lane(s.wi.y, i));
-            double phi = atan2(y, x) / (2 * pi);
-            int row    = (int)((x * x + y * y) * ROWS),
-                column = (int)((phi < 0 ? phi + 1 : phi) * COLUMNS);
-            assert_true(x * x + y * y < 1.0001);
+            double x = (double)lane(place.x, i), y = (double)lane(place.y, i), r2 = x * x + y * y;
+            double turn = atan2(y, x) / (2 * pi);
+            int row = (int)(r2 * ROWS), column = (int)((turn < 0 ? turn + 1 : turn) * COLUMNS);
+            assert_true(r2 < 1.0001);
             row    = row < ROWS ? row : ROWS - 1;
             column = column < COLUMNS ? column : COLUMNS - 1;
             count[row * COLUMNS + column]++;
@@ -296,7 +305,33 @@ TEST(samples_follow_the_density_that_rays_see)
     assert_true(chi_square_at(30, 20, 5) > 0.01);
 }
 
-/* Its density is within 1/0.94 and 1/1.08 of the uniform one: the bounds of disk.c */
+/* As disk.c promises; the solid angle is what each element gives to a surface that faces it. */
+TEST(the_density_is_all_but_one_over_the_solid_angle)
+{
+    arena a        = { 0 };
+    const light *l = make(&a, (vec3){ 0, 0, 0 }, (vec3){ 0, 0, 1 }, 1);
+    uint32_t seed  = 45;
+    double low = 1, high = 1;
+    for (int i = 0; i < 300; i++) {
+        vec3 at = { 3 * random_unit(&seed), 0, powf(10, 2 * random_unit(&seed) - 1.3f) };
+        double omega =
+            by_quadrature(view_of((vec3){ 0, 0, 0 }, (vec3){ 0, 0, 1 }, 1, at, at), true);
+        double rim = hypot((double)at.z, (double)at.x - 1);
+        vvec3 p    = vspread(at);
+        for (int k = 0; k < 16; k++) {
+            vlight_sample s;
+            vfloat x = vsplat(random_unit(&seed)), y = vsplat(random_unit(&seed));
+            light_sample(l, &p, x, y, ALL_LANES, &s);
+            double even = omega * (double)lane(s.pdf, 0);
+            low         = fmin(low, even);
+            high        = fmax(high, even);
+            assert_true(rim < 0.5 || fabs(even - 1) < 3e-3);
+        }
+    }
+    assert_true(low > 0.92 && high < 1.07 && high > 1.01);
+    arena_clear(&a);
+}
+
 TEST(a_sample_is_a_hit_of_the_same_density)
 {
     arena a       = { 0 };
@@ -501,6 +536,7 @@ int main(void)
         cmocka_unit_test(close_by_it_never_gives_more_than_pi),
         cmocka_unit_test(far_away_it_stays_exact),
         cmocka_unit_test(samples_follow_the_density_that_rays_see),
+        cmocka_unit_test(the_density_is_all_but_one_over_the_solid_angle),
         cmocka_unit_test(a_sample_is_a_hit_of_the_same_density),
         cmocka_unit_test(a_half_plane_shadows_it_as_in_closed_form),
         cmocka_unit_test(as_a_point_it_is_off_by_no_more_than_its_bound),

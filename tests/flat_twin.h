@@ -63,8 +63,9 @@ void check_as_point(twin_maker make);
 void check_weight(twin_maker make);
 
 /* From 1 m to 1 um above a place of it and in its plane: nothing above pi L, nothing that is no
- * number, and samples agree with the closed form within `tolerance` of pi L. */
-void check_near(const light *l, dvec3 at, dvec3 up, double tolerance);
+ * number; the closed form is its twin's within 1e-5 of pi L and what 1e-7 m of the place make of
+ * it, and 1024 samples are within `tolerance` of pi L. */
+void check_near(const light *l, const flat_twin *f, dvec3 at, dvec3 up, double tolerance);
 
 /* Of no lane but the first anything is told, and of that nothing at `behind`, if that is dark. */
 void check_lanes(const light *l, dvec3 lit, const dvec3 *behind);

@@ -109,10 +109,11 @@ TEST(close_by_nothing_exceeds_pi_l)
     arena a          = { 0 };
     const light *l   = light_rect(&a, &desk, NULL);
     dvec3 up         = { 0, 0, 1 };
+    flat_twin f      = twin_of(&desk);
     const dvec3 at[] = { { 0, 0, 0 },     { 0.3, -0.1, 0 },  { 0.5, 0, 0 },   { 0, 0.4, 0 },
                          { 0.5, 0.4, 0 }, { 0.499, 0.1, 0 }, { 0.501, 0, 0 }, { 0.8, 0.4, 0 } };
     for (int i = 0; i < 8; i++)
-        check_near(l, at[i], up, 4e-3);
+        check_near(l, &f, at[i], up, 4e-3);
     assert_near(light_closed_form(l, (dvec3){ 0, 0, 1e-6 }, (dvec3){ 0, 0, -1 }), M_PI, 1e-6);
     assert_near(light_closed_form(l, (dvec3){ 0.5, 0, 1e-6 }, (dvec3){ 0, 0, -1 }), M_PI / 2, 1e-5);
     arena_clear(&a);

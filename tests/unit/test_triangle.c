@@ -42,11 +42,12 @@ TEST(close_by_nothing_exceeds_pi_l)
 {
     arena a          = { 0 };
     const light *l   = light_triangle(&a, &sail, NULL);
+    flat_twin f      = twin_of(&sail);
     const dvec3 at[] = { { 0.4, 0.25, 0 }, { 0.45, 0.02, 0 }, { 0.5, 0, 0 },
                          { 0, 0, 0 },      { 0.5, -0.05, 0 }, { 0.99, 0.001, 0 } };
     for (int i = 0; i < 6; i++)
         for (int side = -1; side <= 1; side += 2)
-            check_near(l, at[i], (dvec3){ 0, 0, side }, 2e-2);
+            check_near(l, &f, at[i], (dvec3){ 0, 0, side }, 2e-2);
     assert_near(light_closed_form(l, (dvec3){ 0.4, 0.2, 1e-6 }, (dvec3){ 0, 0, -1 }), M_PI, 1e-5);
     assert_near(light_closed_form(l, (dvec3){ 0.5, 0, 1e-6 }, (dvec3){ 0, 0, -1 }), M_PI / 2, 1e-5);
     arena_clear(&a);

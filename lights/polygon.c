@@ -23,6 +23,10 @@
  * Far away edges cancel whatever is done; there the integral of h (n . v) / |v|^4 is a smooth one,
  * and taken by the 7 points of Radon (1948), exact to the fifth degree, on the triangles of edges
  * and one place of the polygon.
+ *
+ * The error, measured in units of the irradiance that faces the polygon: rectangles 3e-6 up to
+ * 1 : 10 and 4e-5 at 1 : 100, triangles 2e-5 and 1.3e-4: the long edges of strips all but cancel.
+ * What the rounding of the height makes of it, 1e-7 of the distance, comes on top.
  */
 #include "lights/polygon.h"
 
@@ -36,10 +40,17 @@ static const float FAR = 5.0f;
 /* The largest float below pi. */
 static const float BELOW_PI = 3.14159250f;
 
-/* An edge, or what of it is above the horizon; from the centroid, so that its length keeps its
- * digits however far the point is. */
+typedef struct end {
+    vfloat x, y;
+} end;
+
+/* An edge, or what of it is above the horizon: from the centroid, for the quadrature, in which its
+ * length keeps its digits however far the point is; and from the foot, for Lambert's sum, in which
+ * its place keeps them however close. */
 typedef struct edge {
-    vfloat ax, ay, bx, by;
+    end a, b;
+    end foot_a, foot_b;
+    vfloat dx, dy;
     vmask present;
 } edge;
 
@@ -51,73 +62,115 @@ typedef struct outline {
     vmask inside; /* the foot is inside of what is left */
 } outline;
 
-static vfloat vlerp_to(vfloat a, vfloat b, vfloat t) { return a + t * (b - a); }
-
-/* The part of an edge where f >= 0, f a linear function, fa and fb at its ends. */
-static edge cut(edge e, vfloat fa, vfloat fb)
+static end select_end(vmask m, end a, end b)
 {
-    vfloat t = vkeep(fa != fb, fa / (fa - fb));
-    vfloat x = vlerp_to(e.ax, e.bx, t);
-    vfloat y = vlerp_to(e.ay, e.by, t);
-    vmask in = fa >= 0.0f, stays = fb >= 0.0f;
-    return (edge){ vselect(in, e.ax, x), vselect(in, e.ay, y), vselect(stays, e.bx, x),
-                   vselect(stays, e.by, y), in | stays };
+    return (end){ vselect(m, a.x, b.x), vselect(m, a.y, b.y) };
 }
 
-/* An end of an edge from the foot. Right above a corner it is taken to be next to it: both of its
- * edges must agree to which side. */
-typedef struct end {
-    vfloat x, y;
-} end;
-
-static end end_of(vfloat x, vfloat y, vvec3 place)
+/* A corner from the foot. Right above it, it is taken to be beside: both of its edges must agree to
+ * which side. */
+static end from_foot(end a, vvec3 place)
 {
     const float beside = 1e-18f; /* m */
-    end a              = { x - place.x, y - place.y };
-    vmask at           = (a.x == 0.0f) & (a.y == 0.0f);
-    a.x                = vselect(at, vsplat(beside), a.x);
-    return a;
+    end to             = { a.x - place.x, a.y - place.y };
+    vmask at           = (to.x == 0.0f) & (to.y == 0.0f);
+    to.x               = vselect(at, vsplat(beside), to.x);
+    return to;
+}
+
+static edge edge_of(const polygon *g, int i, vvec3 place)
+{
+    int k    = i + 1 < g->corners ? i + 1 : 0;
+    edge e   = { .a       = { vsplat(g->x[i]), vsplat(g->y[i]) },
+                 .b       = { vsplat(g->x[k]), vsplat(g->y[k]) },
+                 .present = ALL_LANES };
+    e.foot_a = from_foot(e.a, place);
+    e.foot_b = from_foot(e.b, place);
+    e.dx     = e.b.x - e.a.x;
+    e.dy     = e.b.y - e.a.y;
+    return e;
 }
 
 /* t: twice the area of the edge and the foot, > 0 if that is to the left; by the nearer end, which
  * has more digits. */
-static vfloat turn_of(const edge *e, end a, end b)
+static vfloat turn_of(const edge *e)
 {
-    vmask a_nearer = a.x * a.x + a.y * a.y < b.x * b.x + b.y * b.y;
-    return vselect(a_nearer, a.x, b.x) * (e->by - e->ay) -
-           vselect(a_nearer, a.y, b.y) * (e->bx - e->ax);
+    vfloat a2 = e->foot_a.x * e->foot_a.x + e->foot_a.y * e->foot_a.y;
+    vfloat b2 = e->foot_b.x * e->foot_b.x + e->foot_b.y * e->foot_b.y;
+    end near_ = select_end(a2 < b2, e->foot_a, e->foot_b);
+    return near_.x * e->dy - near_.y * e->dx;
+}
+
+/* Between a and b; a if it is no number. */
+static vfloat between(vfloat x, vfloat a, vfloat b)
+{
+    return vmin(vmax(x, vmin(a, b)), vmax(a, b));
+}
+
+/* The part of an edge where f >= 0, f = n . v being fa and fb at its ends. From the foot the place
+ * where it is 0 solves  x dy - y dx = t  and  n_x x + n_y y = n_z h. */
+static void cut(edge *e, vvec3 place, vvec3 n, vfloat fa, vfloat fb)
+{
+    vmask in = fa >= 0.0f, stays = fb >= 0.0f;
+    vfloat s  = vkeep(fa != fb, fa / (fa - fb));
+    end at    = { e->a.x + s * e->dx, e->a.y + s * e->dy };
+    vfloat up = n.z * place.z;
+    vfloat t  = turn_of(e);
+    vfloat d  = 1.0f / (n.x * e->dx + n.y * e->dy);
+    end foot  = { between((t * n.y + up * e->dx) * d, e->foot_a.x, e->foot_b.x),
+                  between((up * e->dy - t * n.x) * d, e->foot_a.y, e->foot_b.y) };
+
+    vmask whole = in & stays;
+    e->a        = select_end(in, e->a, at);
+    e->b        = select_end(stays, e->b, at);
+    e->foot_a   = select_end(in, e->foot_a, foot);
+    e->foot_b   = select_end(stays, e->foot_b, foot);
+    e->dx       = vselect(whole, e->dx, e->foot_b.x - e->foot_a.x);
+    e->dy       = vselect(whole, e->dy, e->foot_b.y - e->foot_a.y);
+    e->present  = in | stays;
+}
+
+static vfloat above(end foot, vvec3 place, vvec3 n)
+{
+    return n.x * foot.x + n.y * foot.y - n.z * place.z;
 }
 
 /* Edges need no order: each is cut by itself, and the one along the horizon goes from where the
  * outline sinks below it to where it rises. */
 static outline cut_at_horizon(const polygon *g, vvec3 place, vvec3 n)
 {
-    outline o    = { .count = g->corners + 1, .whole = ALL_LANES, .inside = ALL_LANES };
-    edge horizon = { 0 };
+    outline o   = { .count = g->corners + 1, .whole = ALL_LANES, .inside = ALL_LANES };
+    edge *along = &o.edges[g->corners];
     vmask rises = { 0 }, sinks = { 0 };
-    vfloat middle = vdot(n, place);
+    *along = (edge){ 0 };
     for (int i = 0; i < g->corners; i++) {
-        int k  = i + 1 < g->corners ? i + 1 : 0;
-        edge e = { vsplat(g->x[i]), vsplat(g->y[i]), vsplat(g->x[k]), vsplat(g->y[k]), ALL_LANES };
-        vfloat fa = n.x * e.ax + n.y * e.ay - middle;
-        vfloat fb = n.x * e.bx + n.y * e.by - middle;
+        edge e    = edge_of(g, i, place);
+        vfloat fa = above(e.foot_a, place, n);
+        vfloat fb = above(e.foot_b, place, n);
         o.whole &= fa >= 0.0f;
-        o.inside &= turn_of(&e, end_of(e.ax, e.ay, place), end_of(e.bx, e.by, place)) >= 0.0f;
+        o.inside &= turn_of(&e) >= 0.0f;
 
         vmask down = (fa >= 0.0f) & ~(fb >= 0.0f);
         vmask up   = ~(fa >= 0.0f) & (fb >= 0.0f);
-        o.edges[i] = cut(e, fa, fb);
-        horizon.ax = vselect(down, o.edges[i].bx, horizon.ax);
-        horizon.ay = vselect(down, o.edges[i].by, horizon.ay);
-        horizon.bx = vselect(up, o.edges[i].ax, horizon.bx);
-        horizon.by = vselect(up, o.edges[i].ay, horizon.by);
+        cut(&e, place, n, fa, fb);
+        along->a      = select_end(down, e.b, along->a);
+        along->b      = select_end(up, e.a, along->b);
+        along->foot_a = select_end(down, e.foot_b, along->foot_a);
+        along->foot_b = select_end(up, e.foot_a, along->foot_b);
         sinks |= down;
         rises |= up;
+        o.edges[i] = e;
     }
-    horizon.present     = sinks & rises;
-    o.edges[g->corners] = horizon;
+    along->dx      = along->foot_b.x - along->foot_a.x;
+    along->dy      = along->foot_b.y - along->foot_a.y;
+    along->present = sinks & rises;
     o.inside &= o.whole | (n.z <= 0.0f); /* is the foot above the horizon? */
     return o;
+}
+
+static vfloat dot_of(const edge *e)
+{
+    return e->foot_a.x * e->foot_b.x + e->foot_a.y * e->foot_b.y;
 }
 
 /* theta - theta0, for ab = a . b in the plane, c = |c|, lift = |c| - t and t >= 0. */
@@ -129,13 +182,11 @@ static vfloat tilt_of(vfloat ab, vfloat c, vfloat lift, vfloat t, vfloat h2)
 /* What an edge of the polygon adds along the plane, to be multiplied by h, and square to it. */
 static void edge_terms(const edge *e, vvec3 place, vvec3 n, vfloat *along, vfloat *square)
 {
-    vfloat dx    = e->bx - e->ax;
-    vfloat dy    = e->by - e->ay;
+    vfloat dx    = e->dx;
+    vfloat dy    = e->dy;
     vfloat h2    = place.z * place.z;
-    end a        = end_of(e->ax, e->ay, place);
-    end b        = end_of(e->bx, e->by, place);
-    vfloat ab    = a.x * b.x + a.y * b.y;
-    vfloat turn  = turn_of(e, a, b);
+    vfloat ab    = dot_of(e);
+    vfloat turn  = turn_of(e);
     vfloat t     = vabs(turn);
     vfloat rise  = h2 * (dx * dx + dy * dy);
     vfloat c     = vsqrt(t * t + rise);
@@ -149,20 +200,18 @@ static void edge_terms(const edge *e, vvec3 place, vvec3 n, vfloat *along, vfloa
 }
 
 /* The edge along the horizon, whose c is along n: all of its angle counts. Of that, what the sum of
- * theta0 has of it is |n_z| theta0. Its length is known well, its place (if it passes close by the
- * foot) is not: t = |n_z| |c| and |c| = h |b - a| / sqrt(n_x^2 + n_y^2) do without. */
+ * theta0 has of it is |n_z| theta0; and t = |n_z| |c|, |c| = h |b - a| / sqrt(n_x^2 + n_y^2). */
 static vfloat horizon_term(const edge *e, vvec3 place, vvec3 n)
 {
-    vfloat dx     = e->bx - e->ax;
-    vfloat dy     = e->by - e->ay;
-    vfloat h2     = place.z * place.z;
-    vfloat across = n.x * n.x + n.y * n.y;
-    vfloat up     = vabs(n.z);
-    vfloat c      = place.z * vsqrt((dx * dx + dy * dy) / across);
-    vfloat ab     = (e->ax - place.x) * (e->bx - place.x) + (e->ay - place.y) * (e->by - place.y);
-    vfloat rest   = across / (1.0f + up); /* 1 - |n_z| */
-    vfloat theta  = vatan2(c, ab + h2);
-    vfloat tilt   = tilt_of(ab, c, c * rest, c * up, h2);
+    vfloat length2 = e->dx * e->dx + e->dy * e->dy;
+    vfloat h2      = place.z * place.z;
+    vfloat across  = n.x * n.x + n.y * n.y;
+    vfloat up      = vabs(n.z);
+    vfloat c       = place.z * vsqrt(length2 / across);
+    vfloat ab      = dot_of(e);
+    vfloat rest    = across / (1.0f + up); /* 1 - |n_z| */
+    vfloat theta   = vatan2(c, ab + h2);
+    vfloat tilt    = tilt_of(ab, c, c * rest, c * up, h2);
     return vkeep(e->present & (across > 0.0f), rest * theta + up * tilt);
 }
 
@@ -187,8 +236,8 @@ static vfloat triangle_sum(const edge *e, vfloat px, vfloat py, vvec3 place, vve
         { 0.101286507f, 0.797426985f, 0.125939181f },
         { 0.101286507f, 0.101286507f, 0.125939181f },
     };
-    vfloat ax = e->ax - px, ay = e->ay - py;
-    vfloat bx = e->bx - px, by = e->by - py;
+    vfloat ax = e->a.x - px, ay = e->a.y - py;
+    vfloat bx = e->b.x - px, by = e->b.y - py;
     vfloat sum = vsplat(0.0f);
     for (int i = 0; i < 7; i++) {
         vvec3 v   = { px + at[i][0] * ax + at[i][1] * bx, py + at[i][0] * ay + at[i][1] * by,
@@ -204,8 +253,8 @@ static vfloat triangle_sum(const edge *e, vfloat px, vfloat py, vvec3 place, vve
 static vfloat quadrature(const outline *o, vvec3 place, vvec3 n)
 {
     const edge *horizon = &o->edges[o->count - 1];
-    vfloat px           = vkeep(horizon->present, horizon->ax);
-    vfloat py           = vkeep(horizon->present, horizon->ay);
+    vfloat px           = vkeep(horizon->present, horizon->a.x);
+    vfloat py           = vkeep(horizon->present, horizon->a.y);
     vfloat sum          = vsplat(0.0f);
     for (int i = 0; i + 1 < o->count; i++)
         sum = sum + triangle_sum(&o->edges[i], px, py, place, n);

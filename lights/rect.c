@@ -4,8 +4,8 @@
  * Parametrization for Spherical Rectangles", EGSR 2013, by another way). From its foot in the plane
  * and h above it a point sees [x0, x1] x [y0, y1]. With
  *
- *     s_i = y_i / sqrt(y_i^2 + h^2)        e_i = h / sqrt(y_i^2 + h^2)        c = x / sqrt(x^2 +
- * h^2)
+ *     s_i = y_i / sqrt(y_i^2 + h^2)        e_i = h / sqrt(y_i^2 + h^2)
+ *     c   = x / sqrt(x^2 + h^2)
  *
  * the solid angle of [0, x] x [y0, y1] is A = asin(c s1) - asin(c s0), and solved for x
  *
@@ -13,8 +13,8 @@
  *
  * So an even number s gives x by A = A(x0) + s S, S the solid angle of all; and an even t gives y
  * at that x, since the solid angle of a narrow strip is even in y / sqrt(x^2 + y^2 + h^2). No arc
- * is needed but S, half of which is the sum of the angles tan = h w h' / (...) of its two triangles
- * (Van Oosterom & Strackee 1983), of which nothing cancels however small it is.
+ * is needed but S: the sum of those of its two triangles, by the tangents of their halves, in which
+ * nothing cancels however small they are (Van Oosterom & Strackee 1983).
  */
 #include "core/color.h"
 #include "core/warp.h"

@@ -45,4 +45,29 @@ double light_sampled(const light *l, dvec3 p, dvec3 n, int count, uint32_t seed)
  * even map of all directions; pdfs of samples and hits, and the places of both, are compared. */
 double light_follows_its_pdf(const light *l, const flat_twin *f, dvec3 p);
 
+/* Makes a random light of radiance 1 and its twin. */
+typedef const light *(*twin_maker)(arena *a, uint32_t *state, flat_twin *f);
+
+/* Each at 1000 random places at `near_` to `far` sizes from random lights. The closed form is
+ * within 1e-5 of the value that faces the light, and what the rounding of a height makes of it. */
+void check_closed_form(twin_maker make, double near_, double far);
+
+/* 64 samples are within 5e-3 of the value that faces the light. */
+void check_sampled(twin_maker make, double near_, double far);
+
+/* Against the quadrature, for random tilts and such whose horizon cuts the light through the
+ * middle: the bound holds, and on average over places the worst tilt takes a quarter of it. */
+void check_as_point(twin_maker make);
+
+/* weight() is > 0 and finite at places from which anything is seen, and within a factor of 100. */
+void check_weight(twin_maker make);
+
+/* From 1 m to 1 um above a place of it and in its plane: nothing above pi L, nothing that is no
+ * number; the closed form is its twin's within 1e-5 of pi L and what 1e-7 m of the place make of
+ * it, and 1024 samples are within `tolerance` of pi L. */
+void check_near(const light *l, const flat_twin *f, dvec3 at, dvec3 up, double tolerance);
+
+/* Of no lane but the first anything is told, and of that nothing at `behind`, if that is dark. */
+void check_lanes(const light *l, dvec3 lit, const dvec3 *behind);
+
 #endif

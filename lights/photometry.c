@@ -45,6 +45,18 @@ static bool has_tilt_line(scanner c)
     return false;
 }
 
+/* The beginning of the first line that is not blank. In EULUMDAT one blank line may be the company
+ * that was left out. */
+static scanner after_blank_lines(const scanner *c)
+{
+    scanner next = *c, out = *c;
+    scanned_line l;
+    scan_left(&next);
+    while (out.line < next.line && scan_line(&out, &l))
+        ;
+    return out;
+}
+
 static bool begins_as_ies(scanner c)
 {
     return scan_left(&c) && scan_begins(c.at, (size_t)(c.end - c.at), "IES");
@@ -64,6 +76,16 @@ static bool begins_as_eulumdat(scanner c)
     return true;
 }
 
+static bool refuse_zero(scanner c, const char *zero, lux_error *err)
+{
+    const char *start = c.at;
+    int line          = c.line;
+    for (scanned_line l; scan_line(&c, &l) && l.text <= zero;)
+        start = l.text, line = l.line;
+    return failed(err, ERR_FORMAT, "%s:%d:%ld: found a byte 0, expected a text file", c.path, line,
+                  (long)(zero - start) + 1);
+}
+
 /* Sets the cursor on text: a byte order mark goes, so does what follows Ctrl-Z. */
 static bool open_text(scanner *c, size_t size, lux_error *err)
 {
@@ -78,12 +100,14 @@ static bool open_text(scanner *c, size_t size, lux_error *err)
     const char *ctrl_z = memchr(c->at, 0x1a, (size_t)(c->end - c->at));
     c->end             = ctrl_z ? ctrl_z : c->end;
     c->line_start      = c->at;
-    if (memchr(c->at, '\0', (size_t)(c->end - c->at)))
-        return failed(err, ERR_FORMAT, "%s: found a byte 0, expected a text file", c->path);
+    const char *zero   = memchr(c->at, '\0', (size_t)(c->end - c->at));
+    if (zero)
+        return refuse_zero(*c, zero, err);
     scanner left = *c;
     if (!scan_left(&left))
-        return failed(err, ERR_FORMAT, "%s: found an empty file, expected LM-63 or EULUMDAT",
+        return failed(err, ERR_FORMAT, "%s:1:1: found an empty file, expected LM-63 or EULUMDAT",
                       c->path);
+    c->shift_jis = text_is_shift_jis(c->at, (size_t)(c->end - c->at));
     return true;
 }
 
@@ -99,14 +123,18 @@ const photometry *photometry_parse(arena *a, const char *path, const char *bytes
         return NULL;
     p->manufacturer = p->catalog = p->name = p->lamp = p->report = p->date = "";
 
+    scanner start = after_blank_lines(&c);
     bool read;
-    if (has_tilt_line(c) || begins_as_ies(c))
+    if (begins_as_eulumdat(c) && !(begins_as_ies(c) && has_tilt_line(c)))
+        read = photometry_read_eulumdat(p, &c, err); /* whose labels may be anything */
+    else if (has_tilt_line(c) || begins_as_ies(c))
         read = photometry_read_ies(p, &c, err);
-    else if (begins_as_eulumdat(c))
-        read = photometry_read_eulumdat(p, &c, err);
-    else
+    else if (begins_as_eulumdat(start)) {
+        notice_add(n, "%s:1: blank lines before the first: passed over", path);
+        read = photometry_read_eulumdat(p, &start, err);
+    } else
         return failed(err, ERR_FORMAT,
-                      "%s: neither LM-63 (no line 'TILT=') nor EULUMDAT (lines 2 to "
+                      "%s:1:1: neither LM-63 (no line 'TILT=') nor EULUMDAT (lines 2 to "
                       "4 are no type, symmetry and number of planes)",
                       path);
     if (!read)

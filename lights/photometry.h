@@ -34,7 +34,8 @@ typedef enum photometry_symmetry {
 } photometry_symmetry;
 
 /* The luminous opening. Round shapes have their diameters as length and width; elliptic ones, two
- * that differ. */
+ * that differ. A line has one of length, width and height; a vertical disc has two, and faces
+ * along the one that is 0. */
 typedef enum opening_shape {
     OPENING_POINT,
     OPENING_LINE,
@@ -78,6 +79,17 @@ typedef struct photometry {
     const char *lamp;         /* LAMP, type of lamps */
     const char *report;       /* TEST, measurement report */
     const char *date;         /* ISSUEDATE, date/user */
+
+    /* m, the heights of the opening's faces toward C0, C90, C180, C270: EULUMDAT may tell them
+     * apart; else all are `height`, which is the greatest */
+    float side_height[4];
+
+    /* LM-63's TILT: what the lamp gives, of what it gave when measured, by how far the luminaire
+     * is aimed from straight down; count 0: the same in every tilt */
+    int tilt_count;
+    int tilt_geometry;        /* 1: lamp vertical; 2: horizontal always; 3: horizontal, tilting */
+    const float *tilt_deg;    /* [0, 180], ascending */
+    const float *tilt_factor; /* >= 0 */
 } photometry;
 
 /* Reads the file at path into a. NULL, with *err naming file, line and what was expected. What
@@ -85,7 +97,7 @@ typedef struct photometry {
 const photometry *photometry_read(arena *a, const char *path, notices *n, lux_error *err);
 
 /* The same from the bytes of a file, followed by a NUL that size does not count; path is for
- * messages alone. */
+ * messages, and its folder is where the file that TILT= names is looked for. */
 const photometry *photometry_parse(arena *a, const char *path, const char *bytes, size_t size,
                                    notices *n, lux_error *err);
 
@@ -104,6 +116,10 @@ double photometry_flux(const photometry *p, double from_deg, double to_deg);
 
 /* cd, at any C and at gamma in [0, 180] deg, by bilinear interpolation in double. */
 double photometry_candela(const photometry *p, double plane_deg, double gamma_deg);
+
+/* What the light of a luminaire aimed tilt_deg from straight down is to be multiplied by, for what
+ * that does to its lamp: linear in the angle, the ends' values beyond them; 1 without a table. */
+double photometry_tilt_factor(const photometry *p, double tilt_deg);
 
 /* What data sheets say of a luminaire, all worked out from the web. */
 typedef struct photometry_figures {

@@ -31,7 +31,7 @@ static bool read_words(scanner *c, const char *what, const char **out, lux_error
     scanner start = *c;
     if (!scan_line(c, &l))
         return scan_wrong(&start, what, err);
-    *out = scan_words(c->a, l.text, l.length);
+    *out = scan_words(c, l.text, l.length);
     return true;
 }
 
@@ -80,6 +80,8 @@ static bool read_sizes(photometry *p, scanner *c, lux_error *err)
     if (!read_length(c, "the luminous length", &p->length, err) ||
         !read_length(c, "the luminous width", &p->width, err))
         return false;
+    int line    = c->line;
+    bool uneven = false;
     for (int i = 0; i < 4; i++)
         if (!read_length(c, "a luminous height", &height[i], err))
             return false;
@@ -96,6 +98,17 @@ static bool read_sizes(photometry *p, scanner *c, lux_error *err)
     else
         p->opening = p->height > 0.0f ? OPENING_BOX : OPENING_RECTANGLE;
     p->length_along_deg = 90.0f;
+    for (int i = 0; i < 4; i++) {
+        p->side_height[i] = height[i];
+        uneven            = uneven || height[i] != p->height;
+    }
+    if (uneven)
+        notice_add(c->n,
+                   "%s:%d: luminous heights of %g, %g, %g, %g mm toward C0, C90, C180, C270: the "
+                   "light is spread over a %s of the greatest",
+                   c->path, line, 1e3 * (double)height[0], 1e3 * (double)height[1],
+                   1e3 * (double)height[2], 1e3 * (double)height[3],
+                   opening_shape_name(p->opening));
     return true;
 }
 
@@ -128,14 +141,17 @@ static bool read_ratios(photometry *p, scanner *c, ldt_header *h, int *sets, lux
 typedef struct lamp_set {
     double lamps, flux, watts;
     const char *type;
+    scanner flux_place;
 } lamp_set;
 
 static bool read_lamp_set(scanner *c, lamp_set *s, lux_error *err)
 {
     const char *words;
-    return scan_line_number(c, "the number of lamps", true, &s->lamps, err) &&
-           read_words(c, "the type of lamps", &s->type, err) &&
-           scan_line_number(c, "the flux of the lamps", true, &s->flux, err) &&
+    if (!scan_line_number(c, "the number of lamps", true, &s->lamps, err) ||
+        !read_words(c, "the type of lamps", &s->type, err))
+        return false;
+    s->flux_place = *c;
+    return scan_line_number(c, "the flux of the lamps", true, &s->flux, err) &&
            read_words(c, "the colour appearance", &words, err) &&
            read_words(c, "the colour rendering", &words, err) &&
            scan_line_number(c, "the watts of the lamps", true, &s->watts, err);
@@ -154,10 +170,8 @@ static bool read_lamps(photometry *p, scanner *c, ldt_header *h, int sets, lux_e
         notice_add(c->n, "%s:%d: %d sets of lamps: the first is taken (%s, %g lm)", c->path, line,
                    sets, first.type, first.flux);
     if (!(first.flux > 0.0))
-        return failed(err, ERR_FORMAT,
-                      "%s:%d: found a flux of the lamps of %g lm, expected > 0: "
-                      "intensities are given per 1000 lm",
-                      c->path, line + 2, first.flux);
+        return scan_wrong(&first.flux_place,
+                          "a flux of the lamps > 0: intensities are given per 1000 lm", err);
     if (first.watts < 0.0)
         notice_add(c->n, "%s:%d: %g W: taken as not known", c->path, line + 5, first.watts);
 
@@ -183,9 +197,9 @@ static bool read_angles(scanner *c, const char *what, double *out, int count, do
 {
     for (int i = 0; i < count; i++) {
         char expected[128];
-        scanner start = *c;
+        scanner start;
         snprintf(expected, sizeof expected, "%s %d of %d, 0 to %g deg", what, i + 1, count, most);
-        if (!scan_line_number(c, expected, false, &out[i], err))
+        if (!scan_value(c, expected, &start, &out[i], err))
             return false;
         if (!(out[i] >= 0.0 && out[i] <= most))
             return scan_wrong(&start, expected, err);
@@ -203,36 +217,30 @@ static bool read_angles(scanner *c, const char *what, double *out, int count, do
 
 static bool near(double a, double b) { return fabs(a - b) < 0.01; }
 
-/* The planes that are stored, of all that are listed: how many, and at which angles. Stockmar
- * numbers them from C0 up; symmetric about C90-C270, from C270 by way of C0 to C90. Writers that
- * begin at C90 list the angles so. */
-static int stored_planes(const ldt_header *h, const double *listed, double *stored, bool *fits)
+static int stored_count(const ldt_header *h)
 {
-    int mc = h->planes, first = 0, count = mc;
-    double ends[2] = { listed[0], listed[mc - 1] };
-    switch (h->symmetry) {
-    case 1:
-        count = 1;
-        break;
-    case 2:
-        count = mc / 2 + 1, ends[0] = 0.0, ends[1] = 180.0;
-        break;
-    case 4:
-        count = mc / 4 + 1, ends[0] = 0.0, ends[1] = 90.0;
-        break;
-    case 3:
-        count   = mc / 2 + 1;
-        first   = near(listed[0], 0.0) ? 3 * mc / 4 : 0;
-        ends[0] = near(listed[first], 90.0) ? 90.0 : 270.0;
-        ends[1] = 360.0 - ends[0];
-        break;
-    default:
-        break;
+    int mc = h->planes;
+    return h->symmetry == 0   ? mc
+           : h->symmetry == 1 ? 1
+           : h->symmetry == 4 ? mc / 4 + 1
+                              : mc / 2 + 1;
+}
+
+/* The angles of the planes that are stored, of all that are listed; false where these are not
+ * those of the symmetry. Stockmar numbers them from C0 up; symmetric about C90-C270, from C270 by
+ * way of C0 to C90. Writers that begin at C90 list the angles so. */
+static bool list_stored(const ldt_header *h, const double *listed, int count, double *stored)
+{
+    int mc = h->planes, first = 0;
+    double from = 0.0, to = h->symmetry == 2 ? 180.0 : 90.0;
+    if (h->symmetry == 3) {
+        first = near(listed[0], 0.0) ? 3 * mc / 4 : 0;
+        from  = near(listed[first], 90.0) ? 90.0 : 270.0;
+        to    = 360.0 - from;
     }
     for (int i = 0; i < count; i++)
         stored[i] = listed[(first + i) % mc];
-    *fits = h->symmetry < 2 || (near(stored[0], ends[0]) && near(stored[count - 1], ends[1]));
-    return count;
+    return h->symmetry < 2 || mc == 1 || (near(stored[0], from) && near(stored[count - 1], to));
 }
 
 static void check_step(scanner *c, const char *what, int line, const double *at, int count,
@@ -245,14 +253,14 @@ static void check_step(scanner *c, const char *what, int line, const double *at,
 
 static bool read_intensities(scanner *c, stored_web *w, double factor, lux_error *err)
 {
-    int negative = 0, line = c->line;
+    int negative = 0, line = c->line + 1;
     size_t count = (size_t)w->plane_count * (size_t)w->gamma_count;
     for (size_t i = 0; i < count; i++) {
         char expected[96];
         double value;
         snprintf(expected, sizeof expected, "intensity %zu of %zu", i + 1, count);
-        scanner start = *c;
-        if (!scan_line_number(c, expected, false, &value, err))
+        scanner start;
+        if (!scan_value(c, expected, &start, &value, err))
             return false;
         if (!web_candela(value, factor, &w->candela[i], &negative))
             return scan_wrong(&start, "an intensity below 1e30 cd", err);
@@ -267,18 +275,16 @@ static bool read_intensities(scanner *c, stored_web *w, double factor, lux_error
 static bool read_web(photometry *p, scanner *c, const ldt_header *h, lux_error *err)
 {
     stored_web w;
-    bool fits;
     double *listed = arena_array(c->a, double, (size_t)h->planes, err);
-    if (!listed || !stored_web_new(&w, h->planes, h->gammas, c, err))
+    if (!listed || !stored_web_of_text(&w, stored_count(h), h->gammas, c, err))
         return false;
-    w.plane_line = c->line;
+    w.plane_line = c->line, w.plane_column = 1;
     if (!read_angles(c, "C plane", listed, h->planes, 360.0, h->symmetry == 3, err))
         return false;
-    w.gamma_line  = c->line;
-    w.plane_count = stored_planes(h, listed, w.plane, &fits);
-    if (!fits)
+    w.gamma_line = c->line + 1; /* the cursor is behind the last plane */
+    if (!list_stored(h, listed, w.plane_count, w.plane))
         return failed(err, ERR_FORMAT,
-                      "%s:%d: found C planes from %g to %g for symmetry %d, expected "
+                      "%s:%d:1: found C planes from %g to %g for symmetry %d, expected "
                       "%s",
                       c->path, w.plane_line, w.plane[0], w.plane[w.plane_count - 1], h->symmetry,
                       h->symmetry == 2   ? "0 to 180"

@@ -22,70 +22,137 @@
 
 static const double FEET = 0.3048; /* m */
 
-/* The numbers before the angles. */
+/* The numbers before the angles, and where each of them stands. */
+enum {
+    LAMPS,
+    LUMENS,
+    MULTIPLIER,
+    VERTICALS,
+    HORIZONTALS,
+    TYPE,
+    UNITS,
+    WIDTH,
+    LENGTH,
+    HEIGHT,
+    BALLAST,
+    TENTH,
+    WATTS,
+    HEADER_NUMBERS
+};
+
 typedef struct ies_header {
-    int lamps, verticals, horizontals, type, units;
-    double lumens, multiplier, width, length, height, ballast, tenth, watts;
+    double at[HEADER_NUMBERS];
+    scanner place[HEADER_NUMBERS];
 } ies_header;
-
-/* ---- TILT ------------------------------------------------------------------------------- */
-
-static bool read_tilt(const photometry *p, scanner *c, const scanned_line *tilt, lux_error *err)
-{
-    if (tilt->length == 4 && scan_begins(tilt->text, 4, "NONE"))
-        return true;
-    if (!(tilt->length == 7 && scan_begins(tilt->text, 7, "INCLUDE"))) {
-        notice_add(c->n,
-                   "%s:%d: the lamp's output by tilt (TILT=%s) is in another file: not applied%s",
-                   c->path, tilt->line, scan_words(c->a, tilt->text, tilt->length),
-                   p->format == PHOTOMETRY_LM63_2019 ? "; LM-63-2019 does not allow it" : "");
-        return true;
-    }
-
-    int geometry, angles;
-    double number;
-    if (!scan_count(c, "the lamp-to-luminaire geometry of TILT=INCLUDE", 1, 3, &geometry, err) ||
-        !scan_count(c, "the number of tilt angles", 1, 1000, &angles, err))
-        return false;
-    for (int i = 0; i < 2 * angles; i++)
-        if (!scan_number(c, i < angles ? "a tilt angle" : "a tilt factor", &number, err))
-            return false;
-    notice_add(c->n,
-               "%s:%d: the lamp's output by tilt (TILT=INCLUDE) is not applied: the light is that "
-               "of the position in which it was measured",
-               c->path, tilt->line);
-    return true;
-}
 
 /* ---- numbers ---------------------------------------------------------------------------- */
 
 static bool read_header(scanner *c, ies_header *h, lux_error *err)
 {
-    return scan_count(c, "the number of lamps", -1000000, 1000000, &h->lamps, err) &&
-           scan_number(c, "the lumens of a lamp", &h->lumens, err) &&
-           scan_number(c, "the candela multiplier", &h->multiplier, err) &&
-           scan_count(c, "the number of vertical angles", 1, MOST_ANGLES, &h->verticals, err) &&
-           scan_count(c, "the number of horizontal angles", 1, MOST_ANGLES, &h->horizontals, err) &&
-           scan_count(c, "the photometric type (1: C, 2: B, 3: A)", 1, 3, &h->type, err) &&
-           scan_count(c, "the unit of length (1: feet, 2: metres)", 1, 2, &h->units, err) &&
-           scan_number(c, "the width of the opening", &h->width, err) &&
-           scan_number(c, "the length of the opening", &h->length, err) &&
-           scan_number(c, "the height of the opening", &h->height, err) &&
-           scan_number(c, "the ballast factor", &h->ballast, err) &&
-           scan_number(c, "the number behind the ballast factor", &h->tenth, err) &&
-           scan_number(c, "the input watts", &h->watts, err);
+    static const struct {
+        const char *what;
+        int least, most; /* of whole numbers; both 0: any number */
+    } numbers[HEADER_NUMBERS] = {
+        [LAMPS]       = { "the number of lamps", -1000000, 1000000 },
+        [LUMENS]      = { "the lumens of a lamp" },
+        [MULTIPLIER]  = { "the candela multiplier" },
+        [VERTICALS]   = { "the number of vertical angles", 1, MOST_ANGLES },
+        [HORIZONTALS] = { "the number of horizontal angles", 1, MOST_ANGLES },
+        [TYPE]        = { "the photometric type (1: C, 2: B, 3: A)", 1, 3 },
+        [UNITS]       = { "the unit of length (1: feet, 2: metres)", 1, 2 },
+        [WIDTH]       = { "the width of the opening" },
+        [LENGTH]      = { "the length of the opening" },
+        [HEIGHT]      = { "the height of the opening" },
+        [BALLAST]     = { "the ballast factor" },
+        [TENTH]       = { "the number behind the ballast factor" },
+        [WATTS]       = { "the input watts" },
+    };
+    for (int i = 0; i < HEADER_NUMBERS; i++) {
+        int count;
+        bool whole = numbers[i].most > 0;
+        scan_left(c);
+        h->place[i] = *c;
+        if (whole &&
+            !scan_count(c, numbers[i].what, numbers[i].least, numbers[i].most, &count, err))
+            return false;
+        if (!whole && !scan_number(c, numbers[i].what, &h->at[i], err))
+            return false;
+        h->at[i] = whole ? count : h->at[i];
+    }
+    return true;
 }
 
 /* A factor as it counts: 0 leaves no light, which no file means; below 0 there is no sense. */
-static bool settle_factor(scanner *c, const char *what, double *factor, lux_error *err)
+static bool settle_factor(scanner *c, ies_header *h, int i, const char *what, lux_error *err)
 {
-    if (*factor < 0.0)
-        return failed(err, ERR_FORMAT, "%s:%d: found %g, expected %s > 0", c->path, c->line,
-                      *factor, what);
-    if (*factor == 0.0) {
-        notice_add(c->n, "%s:%d: %s is 0: taken as 1", c->path, c->line, what);
-        *factor = 1.0;
+    char expected[64];
+    snprintf(expected, sizeof expected, "%s > 0", what);
+    if (h->at[i] < 0.0)
+        return scan_wrong(&h->place[i], expected, err);
+    if (h->at[i] == 0.0) {
+        notice_add(c->n, "%s:%d: %s is 0, where LM-63 has one > 0: taken as 1", c->path,
+                   h->place[i].line, what);
+        h->at[i] = 1.0;
     }
+    return true;
+}
+
+/* The number behind the ballast factor, in versions in which it is none. */
+static void check_tenth(const photometry *p, scanner *c, const ies_header *h)
+{
+    static const double generations[] = { 1.00001, 1.00010, 1.00000, 1.00100, 1.01000,
+                                          1.01100, 1.10000, 1.10100, 1.11000, 1.11100 };
+    double tenth                      = h->at[TENTH];
+    int line                          = h->place[TENTH].line;
+    if (p->format != PHOTOMETRY_LM63_2019) {
+        if (tenth != 1.0)
+            notice_add(c->n, "%s:%d: %g behind the ballast factor, where %s has 1: ignored",
+                       c->path, line, tenth, photometry_format_name(p->format));
+        return;
+    }
+    for (size_t i = 0; i < sizeof generations / sizeof *generations; i++)
+        if (fabs(tenth - generations[i]) < 1e-6)
+            return;
+    notice_add(c->n, "%s:%d: LM-63-2019 has no file generation type %.6g: ignored, it is no factor",
+               c->path, line, tenth);
+}
+
+/* Lamps and watts. */
+static void settle_lamps(photometry *p, scanner *c, const ies_header *h)
+{
+    double lamps = h->at[LAMPS], lumens = h->at[LUMENS], watts = h->at[WATTS];
+    if (lamps < 1.0)
+        notice_add(c->n, "%s:%d: %g lamps, where LM-63 has 1 or more: taken as 1", c->path,
+                   h->place[LAMPS].line, lamps);
+    if (lumens < 0.0 && lumens != -1.0)
+        notice_add(c->n, "%s:%d: %g lumens a lamp: taken as -1, absolute photometry", c->path,
+                   h->place[LUMENS].line, lumens);
+    if (lumens == 0.0)
+        notice_add(c->n, "%s:%d: 0 lumens a lamp: taken as not known", c->path,
+                   h->place[LUMENS].line);
+    if (watts < 0.0)
+        notice_add(c->n, "%s:%d: %g input watts: taken as not known", c->path, h->place[WATTS].line,
+                   watts);
+    p->absolute    = lumens < 0.0;
+    p->lamp_lumens = lumens > 0.0 ? lumens * fmax(lamps, 1.0) : 0.0;
+    p->watts       = fmax(watts, 0.0);
+}
+
+static bool settle_opening(photometry *p, scanner *c, const ies_header *h, lux_error *err)
+{
+    double unit = h->at[UNITS] == 1.0 ? FEET : 1.0;
+    for (int i = WIDTH; i <= HEIGHT; i++)
+        if (!(fabs(h->at[i]) * unit <= 1e4))
+            return scan_wrong(&h->place[i], "a size of the opening up to 10 km", err);
+    if (!opening_from_signs(p, h->at[WIDTH] * unit, h->at[LENGTH] * unit, h->at[HEIGHT] * unit))
+        notice_add(c->n,
+                   "%s:%d: %s has no opening with a width, length and height of %g, %g, %g: "
+                   "taken as a %s",
+                   c->path, h->place[WIDTH].line, photometry_format_name(p->format), h->at[WIDTH],
+                   h->at[LENGTH], h->at[HEIGHT], opening_shape_name(p->opening));
+    for (int i = 0; i < 4; i++)
+        p->side_height[i] = p->height;
+    p->length_along_deg = 0.0f;
     return true;
 }
 
@@ -93,45 +160,16 @@ static bool settle_factor(scanner *c, const char *what, double *factor, lux_erro
 static bool settle_header(photometry *p, scanner *c, ies_header *h, double *factor, lux_error *err)
 {
     bool tenth_counts = p->format <= PHOTOMETRY_LM63_1991;
-    if (!settle_factor(c, "the candela multiplier", &h->multiplier, err) ||
-        !settle_factor(c, "the ballast factor", &h->ballast, err) ||
-        (tenth_counts && !settle_factor(c, "the ballast-lamp photometric factor", &h->tenth, err)))
+    if (!settle_factor(c, h, MULTIPLIER, "the candela multiplier", err) ||
+        !settle_factor(c, h, BALLAST, "the ballast factor", err) ||
+        (tenth_counts && !settle_factor(c, h, TENTH, "the ballast-lamp photometric factor", err)))
         return false;
-    *factor = h->multiplier * h->ballast * (tenth_counts ? h->tenth : 1.0);
-    if (!tenth_counts && p->format != PHOTOMETRY_LM63_2019 && h->tenth != 1.0)
-        notice_add(c->n, "%s:%d: %g behind the ballast factor is reserved in %s: ignored", c->path,
-                   c->line, h->tenth, photometry_format_name(p->format));
-
-    if (h->lamps < 1) {
-        notice_add(c->n, "%s:%d: %d lamps: taken as 1", c->path, c->line, h->lamps);
-        h->lamps = 1;
-    }
-    if (h->lumens < 0.0 && h->lumens != -1.0)
-        notice_add(c->n, "%s:%d: %g lumens a lamp: taken as -1, absolute photometry", c->path,
-                   c->line, h->lumens);
-    if (h->lumens == 0.0)
-        notice_add(c->n, "%s:%d: 0 lumens a lamp: taken as not known", c->path, c->line);
-    if (h->watts < 0.0)
-        notice_add(c->n, "%s:%d: %g input watts: taken as not known", c->path, c->line, h->watts);
-    p->absolute    = h->lumens < 0.0;
-    p->lamp_lumens = h->lumens > 0.0 ? h->lumens * h->lamps : 0.0;
-    p->watts       = fmax(h->watts, 0.0);
-    p->type        = "CBA"[h->type - 1];
-
-    double unit = h->units == 1 ? FEET : 1.0;
-    if (!(fmax(fabs(h->width), fmax(fabs(h->length), fabs(h->height))) * unit <= 1e4))
-        return failed(err, ERR_FORMAT,
-                      "%s:%d: found an opening of %g by %g by %g, expected "
-                      "sizes up to 10 km",
-                      c->path, c->line, h->width, h->length, h->height);
-    if (!opening_from_signs(p, h->width * unit, h->length * unit, h->height * unit))
-        notice_add(c->n,
-                   "%s:%d: %s has no opening with a width, length and height of %g, %g, %g: "
-                   "taken as a %s",
-                   c->path, c->line, photometry_format_name(p->format), h->width, h->length,
-                   h->height, opening_shape_name(p->opening));
-    p->length_along_deg = 0.0f;
-    return true;
+    *factor = h->at[MULTIPLIER] * h->at[BALLAST] * (tenth_counts ? h->at[TENTH] : 1.0);
+    if (!tenth_counts)
+        check_tenth(p, c, h);
+    settle_lamps(p, c, h);
+    p->type = "CBA"[(int)h->at[TYPE] - 1];
+    return settle_opening(p, c, h, err);
 }
 
 /* count ascending angles within least..most. */
@@ -165,11 +203,13 @@ static bool read_candelas(scanner *c, stored_web *w, double factor, lux_error *e
         char expected[96];
         double value;
         snprintf(expected, sizeof expected, "candela value %zu of %zu", i + 1, count);
+        scan_left(c);
+        scanner start = *c;
         if (!scan_number(c, expected, &value, err))
             return false;
         if (!web_candela(value, factor, &w->candela[i], &negative))
-            return failed(err, ERR_FORMAT, "%s:%d: found %g times %g candela, expected less",
-                          c->path, c->line, value, factor);
+            return scan_wrong(&start, "a candela value that is below 1e30 cd with all factors",
+                              err);
     }
     if (negative > 0)
         notice_add(c->n, "%s:%d: %d negative candela values: taken as 0", c->path, line, negative);
@@ -182,20 +222,21 @@ static bool read_candelas(scanner *c, stored_web *w, double factor, lux_error *e
 
 static bool near(double a, double b) { return fabs(a - b) < 0.01; }
 
+static const struct {
+    double first, last;
+    photometry_symmetry symmetry;
+    bool standard;
+} ranges[] = {
+    { 0, 90, SYMMETRY_QUADRANT, true }, { 0, 180, SYMMETRY_C0, true },
+    { 90, 270, SYMMETRY_C90, true },    { 0, 360, SYMMETRY_NONE, true },
+    { 180, 360, SYMMETRY_C0, false },   { -90, 90, SYMMETRY_C90, false },
+    { -180, 0, SYMMETRY_C0, false },    { -180, 180, SYMMETRY_NONE, false },
+    { 270, 450, SYMMETRY_C90, false },
+};
+
 /* What the horizontal angles of type C stand for. */
 static bool find_symmetry(photometry *p, scanner *c, const stored_web *w, lux_error *err)
 {
-    static const struct {
-        double first, last;
-        photometry_symmetry symmetry;
-        bool standard;
-    } ranges[] = {
-        { 0, 90, SYMMETRY_QUADRANT, true }, { 0, 180, SYMMETRY_C0, true },
-        { 90, 270, SYMMETRY_C90, true },    { 0, 360, SYMMETRY_NONE, true },
-        { 180, 360, SYMMETRY_C0, false },   { -90, 90, SYMMETRY_C90, false },
-        { -180, 0, SYMMETRY_C0, false },    { -180, 180, SYMMETRY_NONE, false },
-        { 270, 450, SYMMETRY_C90, false },
-    };
     double first = w->plane[0], last = w->plane[w->plane_count - 1];
     if (w->plane_count == 1) {
         if (first != 0.0)
@@ -227,9 +268,9 @@ static bool find_symmetry(photometry *p, scanner *c, const stored_web *w, lux_er
         return true;
     }
     return failed(err, ERR_FORMAT,
-                  "%s:%d: found horizontal angles from %g to %g, expected 0 "
+                  "%s:%d:%d: found horizontal angles from %g to %g, expected 0 "
                   "alone, 0 to 90, 0 to 180, 90 to 270 or 0 to 360",
-                  c->path, w->plane_line, first, last);
+                  c->path, w->plane_line, w->plane_column, first, last);
 }
 
 /* Whether the last plane, 360 deg on, repeats the first. */
@@ -277,10 +318,11 @@ bool photometry_read_ies(photometry *p, scanner *c, lux_error *err)
     ies_header h      = { 0 };
     double factor;
     stored_web w;
-    if (!ies_read_labels(p, c, &tilt, err) || !read_tilt(p, c, &tilt, err) ||
+    if (!ies_read_labels(p, c, &tilt, err) || !ies_read_tilt(p, c, &tilt, err) ||
         !read_header(c, &h, err) || !settle_header(p, c, &h, &factor, err))
         return false;
-    if (!stored_web_new(&w, h.horizontals, h.verticals, c, err))
+    if (!stored_web_of_text(&w, (int)h.at[HORIZONTALS], (int)h.at[VERTICALS], &h.place[VERTICALS],
+                            err))
         return false;
 
     /* In 1986 type 1 was A as well as C: C has no vertical angles below 0 */
@@ -292,7 +334,8 @@ bool photometry_read_ies(photometry *p, scanner *c, lux_error *err)
     if (!read_angles(c, "vertical angle", w.gamma, w.gamma_count, vert, err))
         return false;
     scan_left(c);
-    w.plane_line = c->line;
+    w.plane_line   = c->line;
+    w.plane_column = scan_column(c);
     if (!read_angles(c, "horizontal angle", w.plane, w.plane_count, horiz, err) ||
         !read_candelas(c, &w, factor, err))
         return false;

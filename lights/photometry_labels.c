@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-/* The line in capitals, without blanks; "" if it is longer than any version line. */
+/* The line in capitals, without blanks, as far as it may say a version. */
 static void squeeze(const scanned_line *l, char out[32])
 {
     size_t n = 0;
@@ -15,16 +15,14 @@ static void squeeze(const scanned_line *l, char out[32])
         char ch = l->text[i];
         if (ch == ' ' || ch == '\t')
             continue;
-        if (n == 31) {
-            out[0] = '\0';
-            return;
-        }
+        if (n == 31)
+            break;
         out[n++] = ch >= 'a' && ch <= 'z' ? (char)(ch + 'A' - 'a') : ch;
     }
     out[n] = '\0';
 }
 
-/* The year that ends a version line; 0 if the line is none. */
+/* The year of a version line, which should end it; 0 if the line is none. */
 static int version_year(const char *squeezed)
 {
     const char *s = squeezed;
@@ -37,11 +35,12 @@ static int version_year(const char *squeezed)
     s += strspn(s, ":-_/");
     s += strncmp(s, "63", 2) ? 0 : 2;
     s += strspn(s, ":-_/");
-    if (strspn(s, "0123456789") != strlen(s) || (strlen(s) != 2 && strlen(s) != 4))
+    size_t digits = strspn(s, "0123456789");
+    if (digits != 2 && digits != 4)
         return 0;
     int year = 0;
-    for (; *s; s++)
-        year = 10 * year + (*s - '0');
+    for (size_t i = 0; i < digits; i++)
+        year = 10 * year + (s[i] - '0');
     return year < 100 ? year + (year < 80 ? 2000 : 1900) : year;
 }
 
@@ -63,8 +62,12 @@ static bool read_version(photometry *p, scanner *c, const scanned_line *l)
     squeeze(l, squeezed);
     int year  = version_year(squeezed);
     p->format = PHOTOMETRY_LM63_1986;
-    if (year == 0)
+    if (year == 0) {
+        if (!strncmp(squeezed, "IES", 3))
+            notice_add(c->n, "%s:%d: the version line names no year: read as LM-63-1986", c->path,
+                       l->line);
         return false;
+    }
 
     for (size_t i = 0; i < sizeof versions / sizeof *versions; i++) {
         if (versions[i].year != year)
@@ -96,10 +99,14 @@ static void read_label(photometry *p, scanner *c, const scanned_line *l)
         { "[LAMP]", &p->lamp },      { "[ISSUEDATE]", &p->date },
         { "[DATE]", &p->date },
     };
+    const char *text = l->text;
+    size_t length    = l->length;
+    for (; length > 0 && (*text == ' ' || *text == '\t'); text++)
+        length--;
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
         size_t n = strlen(keys[i].key);
-        if (scan_begins(l->text, l->length, keys[i].key) && !**keys[i].value)
-            *keys[i].value = scan_words(c->a, l->text + n, l->length - n);
+        if (scan_begins(text, length, keys[i].key) && !**keys[i].value)
+            *keys[i].value = scan_words(c, text + n, length - n);
     }
 }
 
@@ -145,6 +152,5 @@ bool ies_read_labels(photometry *p, scanner *c, scanned_line *tilt, lux_error *e
         }
         read_label(p, c, &l);
     }
-    return failed(err, ERR_FORMAT, "%s:%d: found the end of the file, expected a line 'TILT='",
-                  c->path, c->line);
+    return scan_wrong(c, "a line 'TILT='", err);
 }

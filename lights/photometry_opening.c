@@ -5,7 +5,8 @@
 
 #include <math.h>
 
-/* What the signs of length, width and height mean, first matching row first. */
+/* What the signs of length, width and height mean. Where a version has no such row, the first of
+ * any other counts. */
 static const struct {
     photometry_format from, to;
     signed char length, width, height;
@@ -16,20 +17,12 @@ static const struct {
 #define OLD_TO_95 PHOTOMETRY_LM63_1986, PHOTOMETRY_LM63_1995
 #define OF_95     PHOTOMETRY_LM63_1995, PHOTOMETRY_LM63_1995
 #define NEW       PHOTOMETRY_LM63_2002, PHOTOMETRY_LM63_2019
+#define NONE      PHOTOMETRY_NO_FILE, PHOTOMETRY_NO_FILE /* clear, though in no version */
     { ANY, 0, 0, 0, OPENING_POINT },
-    { ANY, 1, 0, 0, OPENING_LINE },
-    { ANY, 0, 1, 0, OPENING_LINE },
-    { ANY, 0, 0, 1, OPENING_LINE },
     { ANY, 1, 1, 0, OPENING_RECTANGLE },
     { ANY, 1, 1, 1, OPENING_BOX },
     { ANY, 1, 0, 1, OPENING_BOX },
     { ANY, 0, 1, 1, OPENING_BOX },
-    { NEW, -1, -1, 0, OPENING_DISC },
-    { NEW, -1, -1, 1, OPENING_VERTICAL_CYLINDER },
-    { NEW, -1, -1, -1, OPENING_SPHERE },
-    { NEW, 1, -1, -1, OPENING_CYLINDER_ALONG },
-    { NEW, -1, 1, -1, OPENING_CYLINDER_ACROSS },
-    { NEW, -1, 0, -1, OPENING_VERTICAL_DISC },
     { OLD_TO_95, 0, -1, 0, OPENING_DISC },
     { OLD_TO_95, 0, -1, 1, OPENING_VERTICAL_CYLINDER },
     { OF_95, 0, -1, -1, OPENING_SPHERE },
@@ -41,11 +34,25 @@ static const struct {
     { OF_95, 1, -1, -1, OPENING_SPHERE },
     { OLD, 1, -1, 0, OPENING_DISC },
     { OLD, 1, -1, 1, OPENING_SPHERE },
+    { NEW, -1, -1, 0, OPENING_DISC },
+    { NEW, -1, -1, 1, OPENING_VERTICAL_CYLINDER },
+    { NEW, -1, -1, -1, OPENING_SPHERE },
+    { NEW, 1, -1, -1, OPENING_CYLINDER_ALONG },
+    { NEW, -1, 1, -1, OPENING_CYLINDER_ACROSS },
+    { NEW, 0, -1, -1, OPENING_VERTICAL_DISC }, /* faces along the length */
+    { NEW, -1, 0, -1, OPENING_VERTICAL_DISC }, /* the same with the two exchanged */
+    { NONE, 1, 0, 0, OPENING_LINE },
+    { NONE, 0, 1, 0, OPENING_LINE },
+    { NONE, 0, 0, 1, OPENING_LINE },
+    { NONE, -1, 1, 0, OPENING_DISC },
+    { NONE, -1, 0, 0, OPENING_DISC },
+    { NONE, -1, 0, 1, OPENING_VERTICAL_CYLINDER },
 #undef ANY
 #undef OLD
 #undef OLD_TO_95
 #undef OF_95
 #undef NEW
+#undef NONE
 };
 
 static int sign_of(double x) { return (x > 0.0) - (x < 0.0); }

@@ -22,6 +22,8 @@ typedef struct scanner {
     int line; /* 1, 2, ... */
     notices *n;
     arena *a;
+    bool shift_jis;                  /* what is not ASCII */
+    bool noted_blank, noted_crowded; /* notices of scan_value() that were given */
 } scanner;
 
 /* A line without its end. */
@@ -49,12 +51,23 @@ bool scan_line_count(scanner *c, const char *what, int least, int most, int *out
 /* Skips blanks, line ends and commas; true if anything is left. */
 bool scan_left(scanner *c);
 
-/* The trimmed line as UTF-8 in a (what is not UTF-8 is taken as Latin-1), control characters made
- * blanks; "" where the arena gives nothing. */
-const char *scan_words(arena *a, const char *text, size_t length);
+/* The next value of EULUMDAT's table, with a point or a comma: one a line, but blank lines are
+ * passed over and several on a line are read, each with a notice, given once. *start: where the
+ * value is. */
+bool scan_value(scanner *c, const char *what, scanner *start, double *out, lux_error *err);
+
+/* Whether all of a file that is not UTF-8 is likely Shift-JIS. */
+bool text_is_shift_jis(const char *text, size_t length);
+
+/* The trimmed line as UTF-8 in c->a, from UTF-8, Shift-JIS where c says so, or Latin-1; control
+ * characters are made blanks; "" where the arena gives nothing. */
+const char *scan_words(const scanner *c, const char *text, size_t length);
 
 /* Whether the n bytes begin with the word, in any case. */
 bool scan_begins(const char *text, size_t length, const char *word);
+
+/* Where on its line the cursor is: 1, 2, ... */
+int scan_column(const scanner *c);
 
 /* "path:line:column: found 'x', expected WHAT" for the place the cursor is at. */
 void *scan_wrong(const scanner *c, const char *expected, lux_error *err);
@@ -65,10 +78,14 @@ typedef struct stored_web {
     double *plane, *gamma;      /* deg; planes as stored, perhaps beyond [0, 360) */
     float *candela;             /* cd, plane after plane */
     int plane_line, gamma_line; /* of the file, where the angles begin */
+    int plane_column;
 } stored_web;
 
-/* Room for a web in c->a; the product of the counts is checked. */
+/* Room for a web in c->a; the product of the counts, which c stands at, is checked. */
 bool stored_web_new(stored_web *w, int planes, int gammas, scanner *c, lux_error *err);
+
+/* The same for one that is written out in what is left of the text: no room is made for more. */
+bool stored_web_of_text(stored_web *w, int planes, int gammas, scanner *c, lux_error *err);
 
 /* Makes *p's web of w, mirrored as p->symmetry says. */
 bool web_unfold(photometry *p, const stored_web *w, scanner *c, lux_error *err);
@@ -89,6 +106,9 @@ bool ies_tilt_line(const scanned_line *l, scanned_line *value);
 
 /* LM-63: everything up to the TILT line, whose value it gives. */
 bool ies_read_labels(photometry *p, scanner *c, scanned_line *tilt, lux_error *err);
+
+/* LM-63: the table that the TILT line stands for, if any. */
+bool ies_read_tilt(photometry *p, scanner *c, const scanned_line *tilt, lux_error *err);
 
 bool photometry_read_ies(photometry *p, scanner *c, lux_error *err);
 bool photometry_read_eulumdat(photometry *p, scanner *c, lux_error *err);

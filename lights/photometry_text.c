@@ -1,16 +1,14 @@
 /* lights/photometry_text.c -- lines, words and numbers of photometric files; see
  * photometry_parts.h. The bytes end in a NUL, so one byte beyond any other may be looked at. */
 #include "core/text.h"
-#include "core/utf8.h"
 #include "lights/photometry_parts.h"
 
 #include <stdio.h>
 #include <string.h>
 
 enum {
-    LONGEST_SHOWN  = 32,  /* bytes of a word in a message */
-    LONGEST_WORDS  = 512, /* bytes of a label that are kept: LM-63 allows 256 */
-    LONGEST_NUMBER = 64,  /* bytes of a number with a decimal comma */
+    LONGEST_SHOWN  = 32, /* bytes of a word in a message */
+    LONGEST_NUMBER = 64, /* bytes of a number with a decimal comma */
 };
 
 static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\f' || c == '\v'; }
@@ -19,14 +17,21 @@ static bool is_separator(char c) { return is_blank(c) || is_line_end(c) || c == 
 
 static char lower(char c) { return c >= 'A' && c <= 'Z' ? (char)(c + 'a' - 'A') : c; }
 
-/* Steps over one line end, in any of its three forms. */
+/* Steps over one line end: LF, CR, CR LF, and CR CR LF, which a second conversion of the line ends
+ * makes of CR LF. */
 static void next_line(scanner *c)
 {
-    bool both = c->at[0] == '\r' && c->at + 1 < c->end && c->at[1] == '\n';
-    c->at += both ? 2 : 1;
+    ptrdiff_t left = c->end - c->at, length = 1;
+    if (left > 1 && !memcmp(c->at, "\r\n", 2))
+        length = 2;
+    if (left > 2 && !memcmp(c->at, "\r\r\n", 3))
+        length = 3;
+    c->at += length;
     c->line_start = c->at;
     c->line++;
 }
+
+int scan_column(const scanner *c) { return (int)(c->at - c->line_start) + 1; }
 
 void *scan_wrong(const scanner *c, const char *expected, lux_error *err)
 {
@@ -37,14 +42,14 @@ void *scan_wrong(const scanner *c, const char *expected, lux_error *err)
     for (ptrdiff_t i = 0; i < last - word; i++) /* control characters have no place in a message */
         shown[i] = word[i] < ' ' && word[i] >= 0 ? '?' : word[i];
 
-    long column = (long)(c->at - c->line_start) + 1;
+    int column = scan_column(c);
     if (c->at == c->end)
-        return failed(err, ERR_FORMAT, "%s:%d:%ld: found the end of the file, expected %s", c->path,
+        return failed(err, ERR_FORMAT, "%s:%d:%d: found the end of the file, expected %s", c->path,
                       c->line, column, expected);
     if (last == word)
-        return failed(err, ERR_FORMAT, "%s:%d:%ld: found nothing, expected %s", c->path, c->line,
+        return failed(err, ERR_FORMAT, "%s:%d:%d: found nothing, expected %s", c->path, c->line,
                       column, expected);
-    return failed(err, ERR_FORMAT, "%s:%d:%ld: found '%s', expected %s", c->path, c->line, column,
+    return failed(err, ERR_FORMAT, "%s:%d:%d: found '%s', expected %s", c->path, c->line, column,
                   shown, expected);
 }
 
@@ -107,6 +112,20 @@ bool scan_count(scanner *c, const char *what, int least, int most, int *out, lux
            whole(c, at, value, what, (int[2]){ least, most }, out, err);
 }
 
+/* The word from `at` on as a number, its comma a point; a blank or `end` ends it. */
+static bool number_with_comma(const char *at, const char *end, double *out)
+{
+    char number[LONGEST_NUMBER] = { 0 };
+    size_t length               = 0;
+    for (; at < end && !is_blank(*at); at++) {
+        if (length + 1 == sizeof number)
+            return false;
+        number[length++] = *at == ',' ? '.' : *at;
+    }
+    const char *last;
+    return text_number(number, &last, out) && *last == '\0';
+}
+
 bool scan_line_number(scanner *c, const char *what, bool blank_is_0, double *out, lux_error *err)
 {
     while (c->at < c->end && is_blank(*c->at))
@@ -121,14 +140,48 @@ bool scan_line_number(scanner *c, const char *what, bool blank_is_0, double *out
         return true;
     }
 
-    /* The first word, its comma a point */
-    char number[LONGEST_NUMBER] = { 0 };
-    size_t length               = 0;
-    for (; length < l.length && length + 1 < sizeof number && !is_blank(l.text[length]); length++)
-        number[length] = l.text[length] == ',' ? '.' : l.text[length];
-    const char *last;
-    if (!text_number(number, &last, out) || *last != '\0')
+    if (!number_with_comma(l.text, l.text + l.length, out))
         return scan_wrong(&start, what, err);
+    return true;
+}
+
+/* To the next value of a table; how many blank lines lie before it. */
+static int skip_to_value(scanner *c)
+{
+    int ends = c->at == c->line_start ? 1 : 0; /* of lines, from the value before on */
+    for (; c->at < c->end && (is_blank(*c->at) || is_line_end(*c->at));) {
+        if (is_line_end(*c->at)) {
+            next_line(c);
+            ends++;
+        } else {
+            c->at++;
+        }
+    }
+    return ends > 1 ? ends - 1 : 0;
+}
+
+bool scan_value(scanner *c, const char *what, scanner *start, double *out, lux_error *err)
+{
+    bool within = c->at != c->line_start; /* behind another value */
+    int line    = c->line;
+    int blanks  = skip_to_value(c);
+    if (blanks > 0 && c->at < c->end && !c->noted_blank) {
+        notice_add(c->n, "%s:%d: a blank line among the values: passed over", c->path, c->line - 1);
+        c->noted_blank = true;
+    }
+    if (within && c->line == line && c->at < c->end && !c->noted_crowded) {
+        notice_add(c->n, "%s:%d: several values on a line, where EULUMDAT has one: all are read",
+                   c->path, line);
+        c->noted_crowded = true;
+    }
+
+    *start           = *c;
+    const char *last = c->at;
+    while (last < c->end && !is_blank(*last) && !is_line_end(*last))
+        last++;
+    if (!number_with_comma(c->at, last, out))
+        return scan_wrong(c, what, err);
+    c->at = last;
     return true;
 }
 
@@ -150,44 +203,4 @@ bool scan_begins(const char *text, size_t length, const char *word)
         if (lower(text[i]) != lower(word[i]))
             return false;
     return true;
-}
-
-static bool is_utf8(const char *text, size_t length)
-{
-    for (size_t i = 0; i < length;) {
-        size_t n = utf8_length(text + i, length - i);
-        if (n == 0)
-            return false;
-        i += n;
-    }
-    return true;
-}
-
-const char *scan_words(arena *a, const char *text, size_t length)
-{
-    while (length > 0 && is_separator(text[0]))
-        text++, length--;
-    while (length > 0 && is_separator(text[length - 1]))
-        length--;
-    bool utf8   = is_utf8(text, length);
-    bool cut    = length > LONGEST_WORDS;
-    size_t kept = cut ? LONGEST_WORDS : length;
-    while (cut && utf8 && (text[kept] & 0xc0) == 0x80) /* not within a character */
-        kept--;
-
-    char *out = arena_array(a, char, 2 * kept + 1, NULL);
-    if (!out)
-        return "";
-    size_t n = 0;
-    for (size_t i = 0; i < kept; i++) {
-        unsigned char b = (unsigned char)text[i];
-        if (utf8 || b < 0x80) {
-            out[n++] = (char)(b < ' ' || b == 0x7f ? ' ' : b);
-        } else { /* Latin-1: C1 controls are blanks, the others two bytes */
-            out[n++] = (char)(b < 0xa0 ? ' ' : 0xc0 | (b >> 6));
-            if (b >= 0xa0)
-                out[n++] = (char)(0x80 | (b & 0x3f));
-        }
-    }
-    return out;
 }

@@ -37,12 +37,23 @@ bool stored_web_new(stored_web *w, int planes, int gammas, scanner *c, lux_error
     *w = (stored_web){ .plane_count = planes, .gamma_count = gammas };
     if ((int64_t)planes * gammas > MOST_VALUES)
         return failed(err, ERR_FORMAT,
-                      "%s:%d: found %d planes of %d angles, expected at most %d values", c->path,
-                      c->line, planes, gammas, MOST_VALUES);
+                      "%s:%d:%d: found %d planes of %d angles, expected at most %d values", c->path,
+                      c->line, scan_column(c), planes, gammas, MOST_VALUES);
     w->plane   = arena_array(c->a, double, (size_t)planes, err);
     w->gamma   = w->plane ? arena_array(c->a, double, (size_t)gammas, err) : NULL;
     w->candela = w->gamma ? arena_array(c->a, float, (size_t)planes *(size_t)gammas, err) : NULL;
     return w->candela != NULL;
+}
+
+bool stored_web_of_text(stored_web *w, int planes, int gammas, scanner *c, lux_error *err)
+{
+    if ((int64_t)planes * gammas <= MOST_VALUES &&
+        (int64_t)planes * gammas > (c->end - c->at + 1) / 2) /* a digit and a blank, each */
+        return failed(err, ERR_FORMAT,
+                      "%s:%d:%d: found %d planes of %d angles, expected no more values than the "
+                      "file has room for",
+                      c->path, c->line, scan_column(c), planes, gammas);
+    return stored_web_new(w, planes, gammas, c, err);
 }
 
 /* ---- mirrors ---------------------------------------------------------------------------- */
@@ -99,8 +110,8 @@ bool web_unfold(photometry *p, const stored_web *w, scanner *c, lux_error *err)
     int rings = w->gamma_count;
     if ((int64_t)count * rings > MOST_VALUES)
         return failed(err, ERR_FORMAT,
-                      "%s:%d: found %d planes of %d angles, expected at most %d values", c->path,
-                      c->line, count, rings, MOST_VALUES);
+                      "%s:%d:%d: found %d planes of %d angles, expected at most %d values", c->path,
+                      w->plane_line, w->plane_column, count, rings, MOST_VALUES);
 
     float *plane   = arena_array(c->a, float, (size_t)count, err);
     float *gamma   = plane ? arena_array(c->a, float, (size_t)rings, err) : NULL;

@@ -1,28 +1,5 @@
-/* tests/unit/test_eulumdat.c -- EULUMDAT files, and webs written and read again. */
-#include "tests/photometry_reading.h"
-
-#include <stdio.h>
-#include <unistd.h>
-
-/* A file from its parts; every place that a test changes is an argument. */
-typedef struct ldt {
-    const char *symmetry, *planes, *opening, *factor, *sets, *angles, *values;
-} ldt;
-
-#define ONE_SET "1\n2\nLED\n2000\n3000\n80\n40\n"
-
-static const ldt plain = { "1", "1", "0\n0\n0\n0\n0\n0", "1", ONE_SET, "0", "100\n50\n0" };
-
-static const photometry *read_ldt(ldt t)
-{
-    char text[2048];
-    snprintf(text, sizeof text,
-             "Company\n2\n%s\n%s\n0\n3\n45\nReport\nName\nNumber\nfile.ldt\ndate\n500\n400\n30\n%"
-             "s\n100\n"
-             "100\n%s\n0\n%s0\n0\n0\n0\n0\n0\n0\n0\n0\n0\n%s\n0\n45\n90\n%s\n",
-             t.symmetry, t.planes, t.opening, t.factor, t.sets, t.angles, t.values);
-    return read_text(text);
-}
+/* tests/unit/test_eulumdat.c -- EULUMDAT files, good, bent and broken, and figures of webs. */
+#include "tests/eulumdat_sheet.h"
 
 TEST(intensities_are_per_1000_lumens_times_the_conversion_factor)
 {
@@ -66,9 +43,6 @@ TEST(of_several_sets_of_lamps_the_first_counts)
     assert_true(noticed("t:27: 2 sets of lamps: the first is taken (A, 1000 lm)"));
 }
 
-/* Eight planes; at gamma 0 10 cd/klm, at 90 the plane's own number. */
-#define EIGHT "0\n45\n90\n135\n180\n225\n270\n315"
-
 TEST(symmetries_are_unfolded_as_stockmar_numbers_planes)
 {
     ldt t    = plain;
@@ -104,6 +78,12 @@ TEST(symmetries_are_unfolded_as_stockmar_numbers_planes)
     assert_non_null(read_ldt(t));
     assert_true(r.p->plane_count == 1 && at(200, 90) == 18);
     assert_int_equal(r.n.count, 0);
+
+    t          = plain; /* one plane can only be the same all around */
+    t.symmetry = "3";
+    assert_non_null(read_ldt(t));
+    assert_int_equal(r.p->symmetry, SYMMETRY_ROTATIONAL);
+    assert_true(noticed("t:3: one C plane with symmetry 3: taken as rotationally symmetric"));
 }
 
 TEST(openings_are_round_where_the_width_is_0)
@@ -112,12 +92,18 @@ TEST(openings_are_round_where_the_width_is_0)
         const char *size;
         opening_shape shape;
         double l, w, h;
+        int notices;
     } cases[] = {
-        { "1200\n300\n0\n0\n0\n0", OPENING_RECTANGLE, 1.2, 0.3, 0 },
-        { "1200\n300\n10\n20\n10\n20", OPENING_BOX, 1.2, 0.3, 0.02 },
-        { "200\n0\n0\n0\n0\n0", OPENING_DISC, 0.2, 0.2, 0 },
-        { "200\n0\n50\n50\n50\n50", OPENING_VERTICAL_CYLINDER, 0.2, 0.2, 0.05 },
-        { "0\n0\n\n0\n0\n0", OPENING_POINT, 0, 0, 0 },
+        { "1200\n300\n0\n0\n0\n0", OPENING_RECTANGLE, 1.2, 0.3, 0, 0 },
+        { "1200\n300\n20\n20\n20\n20", OPENING_BOX, 1.2, 0.3, 0.02, 0 },
+        { "1200\n300\n10\n20\n10\n20", OPENING_BOX, 1.2, 0.3, 0.02, 1 },
+        { "200\n0\n0\n0\n0\n0", OPENING_DISC, 0.2, 0.2, 0, 0 },
+        { "200\n0\n50\n50\n50\n50", OPENING_VERTICAL_CYLINDER, 0.2, 0.2, 0.05, 0 },
+        { "0\n300\n0\n0\n0\n0", OPENING_LINE, 0, 0.3, 0, 0 },
+        { "0\n300\n50\n50\n50\n50", OPENING_BOX, 0, 0.3, 0.05, 0 },
+        { "0\n0\n50\n50\n50\n50", OPENING_LINE, 0, 0, 0.05, 0 },
+        { "0\n0\n\n0\n0\n0", OPENING_POINT, 0, 0, 0, 1 },
+        { "-5\n0\n0\n0\n0\n0", OPENING_POINT, 0, 0, 0, 1 },
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         ldt t     = plain;
@@ -127,7 +113,92 @@ TEST(openings_are_round_where_the_width_is_0)
         assert_near(r.p->length, cases[i].l, 1e-6);
         assert_near(r.p->width, cases[i].w, 1e-6);
         assert_near(r.p->height, cases[i].h, 1e-6);
+        assert_int_equal(r.n.count, cases[i].notices);
     }
+}
+
+TEST(each_side_has_its_luminous_height)
+{
+    ldt t     = plain;
+    t.opening = "1200\n300\n10\n20\n0\n40";
+    assert_non_null(read_ldt(t));
+    const float mm[4] = { 10, 20, 0, 40 };
+    for (int i = 0; i < 4; i++)
+        assert_near(r.p->side_height[i], 1e-3 * (double)mm[i], 1e-6);
+    assert_true(noticed("t:18: luminous heights of 10, 20, 0, 40 mm toward C0, C90, C180, C270: "
+                        "the light is spread over a box of the greatest"));
+}
+
+/* What is between the values does not matter, but is said, once. */
+TEST(tables_with_blank_lines_and_crowded_lines_are_read)
+{
+    ldt t    = plain;
+    t.values = "100\n\n50\n\n \n0";
+    assert_non_null(read_ldt(t));
+    assert_true(at(0, 45) == 100.0 && r.n.count == 1);
+    assert_true(noticed("t:48: a blank line among the values: passed over"));
+    t.values = "100 50\t0\n";
+    assert_non_null(read_ldt(t));
+    assert_true(at(0, 45) == 100.0 && r.n.count == 1);
+    assert_true(noticed("t:47: several values on a line, where EULUMDAT has one: all are read"));
+    t.values = "100 50 x\n";
+    assert_null(read_ldt(t));
+    assert_string_equal(r.err.text, "t:47:8: found 'x', expected intensity 3 of 3");
+    t.values = "100\n50\n0\nThe end";
+    assert_non_null(read_ldt(t));
+    assert_true(r.n.count == 1 && noticed("t:50: text behind the last intensity: ignored"));
+}
+
+TEST(decimal_commas_line_ends_and_marks_do_not_matter)
+{
+    ldt t    = plain;
+    t.values = "100,5\n50,25\n0";
+    assert_non_null(read_ldt(t));
+    assert_near(at(0, 0), 201.0, 1e-6);
+    assert_near(at(0, 45), 100.5, 1e-6);
+    const char *ends[] = { "\r\n", "\r", "\r\r\n" };
+    for (int i = 0; i < 4; i++) {
+        char text[2048];
+        size_t n = 0;
+        if (i == 3)
+            n = (size_t)snprintf(text, sizeof text, "\xef\xbb\xbf");
+        for (const char *s = sheet_text(t); *s; s++)
+            if (*s == '\n' && i < 3)
+                n += (size_t)snprintf(text + n, sizeof text - n, "%s", ends[i]);
+            else
+                text[n++] = *s;
+        n += (size_t)snprintf(text + n, sizeof text - n, "\x1a garbage");
+        assert_non_null(read_text(text));
+        assert_near(at(0, 45), 100.5, 1e-6);
+        assert_string_equal(r.p->manufacturer, "Company");
+        assert_int_equal(r.n.count, 0);
+    }
+}
+
+TEST(labels_of_lm_63_do_not_make_it_that)
+{
+    char text[2048];
+    for (int i = 0; i < 2; i++) {
+        snprintf(text, sizeof text, "%s%s", i ? "IES Ltd" : "Company",
+                 strchr(sheet_text(plain), '\n'));
+        if (i == 0)
+            memcpy(strstr(text, "Number"), "TILT=9", 6);
+        assert_non_null(read_text(text));
+        assert_int_equal(r.p->format, PHOTOMETRY_EULUMDAT);
+    }
+}
+
+TEST(blank_lines_before_the_first_are_passed_over)
+{
+    char text[2100];
+    snprintf(text, sizeof text, "\n \n%s", sheet_text(plain));
+    assert_non_null(read_text(text));
+    assert_string_equal(r.p->manufacturer, "Company");
+    assert_true(at(0, 45) == 100.0 && noticed("t:1: blank lines before the first"));
+    snprintf(text, sizeof text, "%s", strchr(sheet_text(plain), '\n')); /* no company: no blank */
+    assert_non_null(read_text(text));
+    assert_string_equal(r.p->manufacturer, "");
+    assert_int_equal(r.n.count, 0);
 }
 
 TEST(what_eulumdat_cannot_mean_is_refused_at_its_place)
@@ -152,13 +223,13 @@ TEST(what_eulumdat_cannot_mean_is_refused_at_its_place)
     t.sets = "1\n1\nLED\n0\n\n\n5\n";
     assert_null(read_ldt(t));
     assert_string_equal(r.err.text,
-                        "t:29: found a flux of the lamps of 0 lm, expected > 0: intensities "
-                        "are given per 1000 lm");
+                        "t:29:1: found '0', expected a flux of the lamps > 0: intensities are "
+                        "given per 1000 lm");
     t          = plain;
     t.symmetry = "2", t.planes = "8", t.angles = "0\n10\n20\n30\n40\n50\n60\n70";
     assert_null(read_ldt(t));
     assert_string_equal(r.err.text,
-                        "t:43: found C planes from 0 to 40 for symmetry 2, expected 0 to 180");
+                        "t:43:1: found C planes from 0 to 40 for symmetry 2, expected 0 to 180");
     t.angles = "0\n10\n10\n30\n40\n50\n60\n70";
     assert_null(read_ldt(t));
     assert_string_equal(
@@ -177,6 +248,29 @@ TEST(a_stated_output_that_the_web_does_not_have_is_doubted)
     assert_non_null(read_ldt(t));
     photometry_figure(r.p, "t", &r.n);
     assert_true(noticed("more than its lamps"));
+}
+
+/* The sheet's web has a LOR of 1 - 2 / pi times 2 pi / 10: 22.83 %, and states 100 %. */
+TEST(doubt_begins_at_5_percent_and_at_a_lor_of_102)
+{
+    const struct {
+        double lor;
+        bool differs, too_much;
+    } cases[] = { { 0.94, true, false },
+                  { 0.96, false, false },
+                  { 1.01, false, false },
+                  { 1.03, false, true },
+                  { 1.06, true, true } };
+    for (int i = 0; i < 5; i++) {
+        ldt t = plain;
+        char factor[32];
+        snprintf(factor, sizeof factor, "%.12g", cases[i].lor / (0.2 * M_PI * (1.0 - 2.0 / M_PI)));
+        t.factor = factor;
+        assert_non_null(read_ldt(t));
+        assert_near(photometry_figure(r.p, "t", &r.n).lor, cases[i].lor, 1e-6);
+        assert_true(noticed("is stated as 100.0 %") == cases[i].differs);
+        assert_true(noticed("more than its lamps") == cases[i].too_much);
+    }
 }
 
 /* ---- figures ---------------------------------------------------------------------------- */
@@ -219,122 +313,6 @@ TEST(a_beam_on_one_side_is_as_wide_as_it_is)
     assert_true(f.maximum_plane_deg == 0.0 && f.maximum_gamma_deg == 45.0);
 }
 
-/* ---- round trips ------------------------------------------------------------------------ */
-
-static const photometry *again(const photometry *p, const char *path, reading *out)
-{
-    memset(out, 0, sizeof *out);
-    out->n.a = &out->a;
-    if (!photometry_write(p, path, &out->n, &out->err))
-        fail_msg("%s", out->err.text);
-    out->p = photometry_read(&out->a, path, &out->n, &out->err);
-    if (!out->p)
-        fail_msg("%s", out->err.text);
-    unlink(path);
-    return out->p;
-}
-
-/* The same light in all directions, the same opening in space, and what else is kept. */
-static void assert_same(const photometry *a, const photometry *b)
-{
-    for (int c = 0; c < 360; c += 9)
-        for (int g = 0; g <= 180; g += 5)
-            assert_near(photometry_candela(b, c, g), photometry_candela(a, c, g), 1e-6);
-    assert_near(b->luminaire_lumens, a->luminaire_lumens, 1e-6);
-    assert_near(b->lamp_lumens, a->lamp_lumens, 1e-6);
-    assert_near(b->watts, a->watts, 1e-6);
-    assert_int_equal(b->symmetry, a->symmetry);
-    assert_int_equal(b->absolute, a->absolute);
-    bool turned = a->length_along_deg != b->length_along_deg;
-    assert_near(b->length, turned ? a->width : a->length, 1e-6);
-    assert_near(b->width, turned ? a->length : a->width, 1e-6);
-    assert_near(b->height, a->height, 1e-6);
-    assert_string_equal(b->manufacturer, a->manufacturer);
-    assert_string_equal(b->name, a->name);
-    assert_string_equal(b->catalog, a->catalog);
-    assert_string_equal(b->lamp, a->lamp);
-}
-
-TEST(from_one_format_to_the_other_and_back_light_and_opening_stay)
-{
-    ldt t    = plain;
-    t.planes = "8", t.angles = EIGHT, t.opening = "1200\n300\n20\n20\n20\n20";
-    const char *symmetry[] = { "0", "1", "2", "3", "4" };
-    for (int i = 0; i < 5; i++) {
-        t.symmetry = symmetry[i];
-        t.values   = "9\n1\n1\n9\n1\n2\n9\n1\n3\n9\n1\n4\n9\n1\n5\n9\n1\n6\n9\n1\n7\n9\n1\n8";
-        t.sets     = i % 2 ? ONE_SET : "1\n-1\nLED\n500\n\n\n5\n";
-        reading ies, ldt_;
-        assert_non_null(read_ldt(t));
-        const photometry *b = again(r.p, "build/round_trip.ies", &ies);
-        assert_same(r.p, b);
-        assert_int_equal(b->format, PHOTOMETRY_LM63_2002);
-        assert_near(b->length, 0.3, 1e-6); /* along C0 what was the width */
-        const photometry *c = again(b, "build/round_trip.ldt", &ldt_);
-        assert_same(b, c);
-        assert_same(r.p, c);
-        assert_near(c->length, 1.2, 1e-6);
-        assert_int_equal(c->opening, OPENING_BOX);
-        arena_clear(&ies.a);
-        arena_clear(&ldt_.a);
-    }
-}
-
-TEST(a_web_without_planes_on_the_axes_is_written_whole)
-{
-    const float plane[] = { 30, 150, 270 }, gamma[] = { 10, 170 };
-    const float candela[] = { 1, 2, 3, 4, 5, 6 };
-    photometry p          = { .plane_count = 3,
-                              .gamma_count = 2,
-                              .plane_deg   = plane,
-                              .gamma_deg   = gamma,
-                              .candela     = candela,
-                              .absolute    = true };
-    p.luminaire_lumens    = photometry_flux(&p, 0, 180);
-    p.manufacturer = p.name = p.catalog = p.lamp = "";
-    reading out;
-    assert_same(&p, again(&p, "build/round_trip.ies", &out));
-    arena_clear(&out.a);
-    p.length_along_deg = 90.0f;
-    assert_same(&p, again(&p, "build/round_trip.ldt", &out));
-    arena_clear(&out.a);
-}
-
-TEST(round_openings_keep_their_shape_in_lm_63)
-{
-    const opening_shape shapes[] = { OPENING_POINT,          OPENING_LINE,
-                                     OPENING_RECTANGLE,      OPENING_BOX,
-                                     OPENING_DISC,           OPENING_VERTICAL_CYLINDER,
-                                     OPENING_SPHERE,         OPENING_CYLINDER_ALONG,
-                                     OPENING_CYLINDER_ACROSS };
-    for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++) {
-        assert_non_null(read_ldt(plain));
-        photometry p = *r.p;
-        p.opening = shapes[i], p.length_along_deg = 0.0f;
-        if (i > 0)
-            p.length = 0.5f;
-        if (i > 1)
-            p.width = 0.4f;
-        if (i == 3 || i > 4)
-            p.height = 0.3f;
-        reading out;
-        assert_int_equal(again(&p, "build/round_trip.ies", &out)->opening, shapes[i]);
-        assert_same(&p, out.p);
-        assert_int_equal(out.n.count, 0);
-        arena_clear(&out.a);
-    }
-}
-
-TEST(only_names_that_say_a_format_are_written)
-{
-    lux_error err = { 0 };
-    assert_non_null(read_ldt(plain));
-    assert_false(photometry_write(r.p, "build/web.txt", NULL, &err));
-    assert_string_equal(err.text, "build/web.txt: expected a name that ends in .ies or .ldt");
-    assert_false(photometry_write(r.p, "build/no/such/folder/web.ies", NULL, &err));
-    assert_int_equal(err.code, ERR_IO);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -343,14 +321,16 @@ int main(void)
         cmocka_unit_test(of_several_sets_of_lamps_the_first_counts),
         cmocka_unit_test(symmetries_are_unfolded_as_stockmar_numbers_planes),
         cmocka_unit_test(openings_are_round_where_the_width_is_0),
+        cmocka_unit_test(each_side_has_its_luminous_height),
+        cmocka_unit_test(tables_with_blank_lines_and_crowded_lines_are_read),
+        cmocka_unit_test(decimal_commas_line_ends_and_marks_do_not_matter),
+        cmocka_unit_test(labels_of_lm_63_do_not_make_it_that),
+        cmocka_unit_test(blank_lines_before_the_first_are_passed_over),
         cmocka_unit_test(what_eulumdat_cannot_mean_is_refused_at_its_place),
         cmocka_unit_test(a_stated_output_that_the_web_does_not_have_is_doubted),
+        cmocka_unit_test(doubt_begins_at_5_percent_and_at_a_lor_of_102),
         cmocka_unit_test(figures_of_a_straight_line_are_its_closed_forms),
         cmocka_unit_test(a_beam_on_one_side_is_as_wide_as_it_is),
-        cmocka_unit_test(from_one_format_to_the_other_and_back_light_and_opening_stay),
-        cmocka_unit_test(a_web_without_planes_on_the_axes_is_written_whole),
-        cmocka_unit_test(round_openings_keep_their_shape_in_lm_63),
-        cmocka_unit_test(only_names_that_say_a_format_are_written),
     };
     return cmocka_run_group_tests(tests, NULL, finish);
 }

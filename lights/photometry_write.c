@@ -11,7 +11,10 @@
 #include <string.h>
 #include <strings.h>
 
-enum { LONGEST_LABEL = 78 /* bytes, EULUMDAT's; LM-63 has 256 a line */, VALUES_A_LINE = 10 };
+enum { LONGEST_LDT = 78, LONGEST_IES = 240 /* bytes of a label; LM-63 has 256 a line */ };
+enum { VALUES_A_LINE = 10 };
+
+static const double NARROWEST_MM = 1.0; /* EULUMDAT takes a width of 0 as round */
 
 /* ---- what both formats need ------------------------------------------------------------- */
 
@@ -55,14 +58,32 @@ static double even_step(const double *at, int count)
     return step;
 }
 
+/* What is written to. */
+typedef struct web_output {
+    FILE *file;
+    const char *path; /* for messages */
+    size_t longest;   /* bytes of a label */
+    arena *a;
+    notices *n;
+} web_output;
+
 /* Text as a line takes it, cut between characters. */
-static void write_label(FILE *f, const char *key, const char *text, const char *line_end)
+static void write_label(const web_output *o, const char *key, const char *text)
 {
     size_t n = text ? strlen(text) : 0;
-    if (n > LONGEST_LABEL)
-        for (n = LONGEST_LABEL; (text[n] & 0xc0) == 0x80;)
+    if (n > o->longest) {
+        notice_add(o->n, "%s: a label of %zu bytes is cut to %zu: %s", o->path, n, o->longest,
+                   text);
+        for (n = o->longest; (text[n] & 0xc0) == 0x80;)
             n--;
-    fprintf(f, "%s%.*s%s", key, (int)n, text ? text : "", line_end);
+    }
+    fprintf(o->file, "%s%.*s\r\n", key, (int)n, text ? text : "");
+}
+
+static bool even_sides(const photometry *p)
+{
+    const float *h = p->side_height;
+    return h[0] == h[1] && h[0] == h[2] && h[0] == h[3];
 }
 
 /* The opening with its length along C plane 0 or 90, as the format wants it. */
@@ -99,7 +120,7 @@ static void opening_signs(opening_shape s, double sign[3])
         [OPENING_SPHERE]            = { -1, -1, -1 },
         [OPENING_CYLINDER_ALONG]    = { 1, -1, -1 },
         [OPENING_CYLINDER_ACROSS]   = { -1, 1, -1 },
-        [OPENING_VERTICAL_DISC]     = { -1, 1, -1 },
+        [OPENING_VERTICAL_DISC]     = { -1, -1, -1 },
     };
     for (int i = 0; i < 3; i++)
         sign[i] = table[s][i];
@@ -126,25 +147,47 @@ static bool list_for_ies(const photometry *p, plane_list *out, arena *a, lux_err
     return true;
 }
 
-static bool write_ies(const photometry *p, FILE *f, arena *a, lux_error *err)
+/* Up to the TILT line and its table. */
+static void write_ies_labels(const photometry *p, const web_output *o)
+{
+    fprintf(o->file, "IESNA:LM-63-2002\r\n");
+    write_label(o, "[TEST] ", p->report);
+    write_label(o, "[TESTLAB] ", "");
+    write_label(o, "[ISSUEDATE] ", p->date);
+    write_label(o, "[MANUFAC] ", p->manufacturer);
+    write_label(o, "[LUMCAT] ", p->catalog);
+    write_label(o, "[LUMINAIRE] ", p->name);
+    write_label(o, "[LAMP] ", p->lamp);
+    if (p->tilt_count == 0) {
+        fprintf(o->file, "TILT=NONE\r\n");
+        return;
+    }
+    fprintf(o->file, "TILT=INCLUDE\r\n%d\r\n%d\r\n", p->tilt_geometry, p->tilt_count);
+    for (int i = 0; i < p->tilt_count; i++)
+        fprintf(o->file, "%.9g\r\n", (double)p->tilt_deg[i]);
+    for (int i = 0; i < p->tilt_count; i++)
+        fprintf(o->file, "%.9g\r\n", (double)p->tilt_factor[i]);
+}
+
+static bool write_ies(const photometry *p, const web_output *out, lux_error *err)
 {
     plane_list planes;
-    double *row = arena_array(a, double, (size_t)p->gamma_count, err);
-    if (!row || !list_for_ies(p, &planes, a, err))
+    FILE *f     = out->file;
+    double *row = arena_array(out->a, double, (size_t)p->gamma_count, err);
+    if (!row || !list_for_ies(p, &planes, out->a, err))
         return false;
-    fprintf(f, "IESNA:LM-63-2002\r\n");
-    write_label(f, "[TEST] ", p->report, "\r\n");
-    write_label(f, "[TESTLAB] ", "", "\r\n");
-    write_label(f, "[ISSUEDATE] ", p->date, "\r\n");
-    write_label(f, "[MANUFAC] ", p->manufacturer, "\r\n");
-    write_label(f, "[LUMCAT] ", p->catalog, "\r\n");
-    write_label(f, "[LUMINAIRE] ", p->name, "\r\n");
-    write_label(f, "[LAMP] ", p->lamp, "\r\n");
+    write_ies_labels(p, out);
 
     double sign[3];
     turned_opening o = turn_opening(p, 0.0f);
     opening_signs(o.shape, sign);
-    fprintf(f, "TILT=NONE\r\n1 %.9g 1 %d %d 1 2 %.9g %.9g %.9g\r\n1 1 %.9g\r\n",
+    if (o.shape == OPENING_LINE)
+        notice_add(out->n, "%s: LM-63 has no line: the opening is written as one of no width",
+                   out->path);
+    if (!even_sides(p))
+        notice_add(out->n, "%s: LM-63 has one height of the opening: %g m, the greatest", out->path,
+                   o.height);
+    fprintf(f, "1 %.9g 1 %d %d 1 2 %.9g %.9g %.9g\r\n1 1 %.9g\r\n",
             p->lamp_lumens > 0.0 ? p->lamp_lumens : -1.0, p->gamma_count, planes.count,
             0.0 + sign[1] * o.width, 0.0 + sign[0] * o.length, 0.0 + sign[2] * o.height, p->watts);
     for (int j = 0; j < p->gamma_count; j++)
@@ -161,23 +204,29 @@ static bool write_ies(const photometry *p, FILE *f, arena *a, lux_error *err)
 
 /* ---- EULUMDAT --------------------------------------------------------------------------- */
 
-/* Its opening: length and width in mm, width 0 for round ones, and height. */
-static void write_ldt_opening(const photometry *p, const char *path, FILE *f, notices *n)
+/* Its opening: length and width in mm, width 0 for round ones, and heights. */
+static void write_ldt_opening(const photometry *p, const web_output *out)
 {
+    FILE *f          = out->file;
     turned_opening o = turn_opening(p, 90.0f);
     bool round =
         (o.shape == OPENING_DISC || o.shape == OPENING_VERTICAL_CYLINDER) && o.length == o.width;
     bool known = round || o.shape == OPENING_POINT || o.shape == OPENING_LINE ||
                  o.shape == OPENING_RECTANGLE || o.shape == OPENING_BOX;
     if (!known)
-        notice_add(n,
+        notice_add(out->n,
                    "%s: EULUMDAT has no opening '%s' of %g by %g m: written as the box around it",
-                   path, opening_shape_name(o.shape), o.length, o.width);
+                   out->path, opening_shape_name(o.shape), o.length, o.width);
     double mm[3] = { 1e3 * o.length, round ? 0.0 : 1e3 * o.width, 1e3 * o.height };
+    if (!round && mm[0] > 0.0 && mm[1] == 0.0) {
+        notice_add(out->n, "%s: EULUMDAT has no opening without width: written %g mm wide",
+                   out->path, NARROWEST_MM);
+        mm[1] = NARROWEST_MM;
+    }
     fprintf(f, "%.9g\r\n%.9g\r\n%.9g\r\n", mm[0], mm[1], mm[2]);
     fprintf(f, "%.9g\r\n%.9g\r\n", mm[0], mm[1]);
     for (int i = 0; i < 4; i++)
-        fprintf(f, "%.9g\r\n", mm[2]);
+        fprintf(f, "%.9g\r\n", even_sides(p) ? mm[2] : 1e3 * (double)p->side_height[i]);
 }
 
 /* The planes all the way around (Mc of them), and which are stored from where on. */
@@ -217,43 +266,48 @@ static bool list_for_ldt(const photometry *p, ldt_planes *out, arena *a, lux_err
     return true;
 }
 
-static void write_ldt_lamps(const photometry *p, const photometry_figures *g, double flux, FILE *f)
+static void write_ldt_lamps(const photometry *p, const photometry_figures *g, double flux,
+                            const web_output *o)
 {
+    FILE *f    = o->file;
     double all = p->luminaire_lumens;
     fprintf(f, "%.9g\r\n%.9g\r\n1\r\n0\r\n1\r\n", g->flux_code[3],
             100.0 * (p->lamp_lumens > 0.0 ? all / p->lamp_lumens : 1.0));
     fprintf(f, "%d\r\n", p->lamp_lumens > 0.0 ? 1 : -1);
-    write_label(f, "", p->lamp, "\r\n");
+    write_label(o, "", p->lamp);
     fprintf(f, "%.9g\r\n\r\n\r\n%.9g\r\n", flux, p->watts);
     for (int i = 0; i < 10; i++) /* direct ratios */
         fprintf(f, "0\r\n");
 }
 
-static bool write_ldt(const photometry *p, const char *path, FILE *f, arena *a, notices *n,
-                      lux_error *err)
+static bool write_ldt(const photometry *p, const web_output *o, lux_error *err)
 {
     ldt_planes planes;
-    double *gamma = arena_array(a, double, (size_t)p->gamma_count, err);
-    if (!gamma || !list_for_ldt(p, &planes, a, err))
+    FILE *f       = o->file;
+    double *gamma = arena_array(o->a, double, (size_t)p->gamma_count, err);
+    if (!gamma || !list_for_ldt(p, &planes, o->a, err))
         return false;
+    if (p->tilt_count > 0)
+        notice_add(o->n, "%s: EULUMDAT has no word for the lamp's output by tilt: left out",
+                   o->path);
     for (int j = 0; j < p->gamma_count; j++)
         gamma[j] = (double)p->gamma_deg[j];
 
-    write_label(f, "", p->manufacturer, "\r\n");
+    write_label(o, "", p->manufacturer);
     fprintf(f, "%d\r\n%d\r\n%d\r\n%.9g\r\n%d\r\n%.9g\r\n", planes.symmetry == 1 ? 1 : 3,
             planes.symmetry, planes.all.count, even_step(planes.all.deg, planes.all.count),
             p->gamma_count, even_step(gamma, p->gamma_count));
-    write_label(f, "", p->report, "\r\n");
-    write_label(f, "", p->name, "\r\n");
-    write_label(f, "", p->catalog, "\r\n");
-    write_label(f, "", strrchr(path, '/') ? strrchr(path, '/') + 1 : path, "\r\n");
-    write_label(f, "", p->date, "\r\n");
-    write_ldt_opening(p, path, f, n);
+    write_label(o, "", p->report);
+    write_label(o, "", p->name);
+    write_label(o, "", p->catalog);
+    write_label(o, "", strrchr(o->path, '/') ? strrchr(o->path, '/') + 1 : o->path);
+    write_label(o, "", p->date);
+    write_ldt_opening(p, o);
 
-    photometry_figures g = photometry_figure(p, path, NULL);
+    photometry_figures g = photometry_figure(p, o->path, NULL);
     double flux          = p->lamp_lumens > 0.0 ? p->lamp_lumens : p->luminaire_lumens;
     flux                 = flux > 0.0 ? flux : 1000.0; /* a dark one: any will do */
-    write_ldt_lamps(p, &g, flux, f);
+    write_ldt_lamps(p, &g, flux, o);
     for (int i = 0; i < planes.all.count; i++)
         fprintf(f, "%.9g\r\n", planes.all.deg[i]);
     for (int j = 0; j < p->gamma_count; j++)
@@ -278,8 +332,9 @@ bool photometry_write(const photometry *p, const char *path, notices *n, lux_err
     output_file f;
     if (!file_create(&f, path, err))
         return false;
-    arena a   = { 0 };
-    bool done = ies ? write_ies(p, f.stream, &a, err) : write_ldt(p, path, f.stream, &a, n, err);
+    arena a              = { 0 };
+    const web_output out = { f.stream, path, ies ? LONGEST_IES : LONGEST_LDT, &a, n };
+    bool done            = ies ? write_ies(p, &out, err) : write_ldt(p, &out, err);
     arena_clear(&a);
     if (!done) {
         file_discard(&f);

@@ -3,6 +3,8 @@
 
 #include <dirent.h>
 #include <stdio.h>
+#include <strings.h>
+#include <unistd.h>
 
 static void check_finite(const photometry *p)
 {
@@ -21,32 +23,113 @@ static void check_finite(const photometry *p)
         assert_true(all[i] >= 0.0 && all[i] < HUGE_VAL);
 }
 
-/* None of some 150 public files crashes; what is read is finite. */
-TEST(every_file_at_hand_is_read_or_refused)
+/* What is done with each file at hand: p is NULL where it was refused. */
+typedef void visitor(const char *path, const photometry *p, void *sum);
+
+/* Visits the photometric files of the folders; false if one is not there. */
+static bool visit_files(visitor *visit, void *sum)
 {
-    const char *folders[] = { "../shared/data/ies", "../shared/data/ldt" };
-    int read = 0, refused = 0;
-    for (int i = 0; i < 2; i++) {
+    const char *folders[] = { "../shared/data/ies", "../shared/data/ldt",
+                              "../shared/data/gltf/babylon_EXT_lights_ies" };
+    for (int i = 0; i < 3; i++) {
         DIR *d = opendir(folders[i]);
         if (!d)
-            skip();
+            return false;
         for (struct dirent *e; (e = readdir(d));) {
             char path[1024];
+            const char *dot = strrchr(e->d_name, '.');
             snprintf(path, sizeof path, "%s/%s", folders[i], e->d_name);
-            if (e->d_name[0] == '.')
+            if (!dot || dot == e->d_name || (strcasecmp(dot, ".ies") && strcasecmp(dot, ".ldt")))
                 continue;
             finish(NULL);
             r.n.a = &r.a;
             r.p   = photometry_read(&r.a, path, &r.n, &r.err);
-            read += r.p != NULL;
-            refused += r.p == NULL;
-            assert_true(r.p || strstr(r.err.text, path));
-            if (r.p)
-                check_finite(r.p);
+            visit(path, r.p, sum);
         }
         closedir(d);
     }
-    assert_true(read >= 150 && refused <= 2);
+    return true;
+}
+
+/* A refusal has a line and column: "path:3:1: found". */
+static void check_read(const char *path, const photometry *p, void *sum)
+{
+    int *counts = sum, line, column;
+    counts[p ? 0 : 1]++;
+    if (p)
+        check_finite(p);
+    else if (strncmp(r.err.text, path, strlen(path)) ||
+             sscanf(r.err.text + strlen(path), ":%d:%d: found", &line, &column) != 2)
+        fail_msg("%s", r.err.text);
+}
+
+TEST(every_file_at_hand_is_read_or_refused_with_a_reason)
+{
+    int counts[2] = { 0 };
+    if (!visit_files(check_read, counts))
+        skip();
+    assert_true(counts[0] >= 150 && counts[1] <= 2);
+}
+
+/* The opening's extent along C0, along C90 and down. */
+static void extent(const photometry *p, float out[3])
+{
+    bool along = p->length_along_deg == 0.0f;
+    out[0]     = along ? p->length : p->width;
+    out[1]     = along ? p->width : p->length;
+    out[2]     = p->height;
+}
+
+/* Whether EULUMDAT has a word for the opening; where it has none, sizes are still the same. */
+static bool is_round_only_in_ies(const photometry *p)
+{
+    bool round = p->opening == OPENING_DISC || p->opening == OPENING_VERTICAL_CYLINDER;
+    return p->opening >= OPENING_SPHERE || (round && p->length != p->width);
+}
+
+/* Candelas to the 9 digits that are written and the rounding of floats. */
+static void check_round_trip(const char *path, const photometry *p, void *sum)
+{
+    int *count = sum;
+    for (int ldt = 0; p && ldt < 2; ldt++) {
+        arena a         = { 0 };
+        lux_error err   = { 0 };
+        const char *out = ldt ? "build/real.ldt" : "build/real.ies";
+        if (!photometry_write(p, out, NULL, &err))
+            fail_msg("%s", err.text);
+        const photometry *q = photometry_read(&a, out, NULL, &err);
+        if (!q)
+            fail_msg("%s as %s: %s", path, out, err.text);
+        double most = photometry_figure(p, path, NULL).maximum_cd;
+        for (int i = 0; i < p->plane_count; i++)
+            for (int j = 0; j < p->gamma_count; j++) {
+                double c = (double)p->plane_deg[i], g = (double)p->gamma_deg[j];
+                double is = photometry_candela(q, c, g), was = photometry_candela(p, c, g);
+                if (!(fabs(is - was) <= 1e-6 * most))
+                    fail_msg("%s as %s: %g cd at %g, %g, not %g", path, out, is, c, g, was);
+            }
+        float before[3], after[3];
+        extent(p, before), extent(q, after);
+        for (int k = 0; k < 3; k++)
+            assert_near(after[k], before[k], 1e-6);
+        if (!ldt || !is_round_only_in_ies(p))
+            if (q->opening != p->opening && q->opening != OPENING_CYLINDER_ACROSS)
+                fail_msg("%s as %s: a %s", path, out, opening_shape_name(q->opening));
+        assert_near(q->luminaire_lumens, p->luminaire_lumens, 1e-6);
+        assert_near(q->lamp_lumens, p->lamp_lumens, 1e-6);
+        assert_near(q->watts, p->watts, 1e-6);
+        arena_clear(&a);
+        unlink(out);
+        ++*count;
+    }
+}
+
+TEST(every_file_at_hand_is_the_same_when_written_and_read_again)
+{
+    int count = 0;
+    if (!visit_files(check_round_trip, &count))
+        skip();
+    assert_true(count >= 300);
 }
 
 /* Each text cut at each byte, and with each byte changed in three ways. */
@@ -85,7 +168,8 @@ TEST(cut_and_changed_texts_never_crash)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_file_at_hand_is_read_or_refused),
+        cmocka_unit_test(every_file_at_hand_is_read_or_refused_with_a_reason),
+        cmocka_unit_test(every_file_at_hand_is_the_same_when_written_and_read_again),
         cmocka_unit_test(cut_and_changed_texts_never_crash),
     };
     return cmocka_run_group_tests(tests, NULL, finish);

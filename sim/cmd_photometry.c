@@ -26,7 +26,14 @@ const command command_photometry = {
     .summary = "what .ies and .ldt files hold: figures, warnings, polar diagram, conversion",
     .help =
         "Beam and field angle are full angles, to half and a tenth of the largest intensity of\n"
-        "each plane. The flux code is that of CIE 52.\n",
+        "each plane. The flux code is that of CIE 52. All are those of the luminaire as measured.\n"
+        "--plot draws C0-C180 as a full line, C90-C270 as a broken one, in cd/klm where the "
+        "lamps'\n"
+        "lumens are known, else in cd.\n"
+        "--write converts to LM-63-2002 (.ies) or EULUMDAT (.ldt). Light and opening keep their\n"
+        "place in the room: as lengths lie along C0 in the one and along C90 in the other, length\n"
+        "and width are exchanged. What a format has no word for is said.\n"
+        "A file named by TILT= is read if it lies in the same folder.\n",
     .options = " --plot --write --overwrite --json --quiet ",
     .run     = photometry_command,
 };

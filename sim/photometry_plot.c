@@ -11,10 +11,11 @@
 #include <math.h>
 #include <string.h>
 
-enum { MOST_RINGS = 6, LONGEST_TITLE = 56 /* characters: what fits */ };
+enum { MOST_RINGS = 6 };
 
 static const double WIDTH = 520.0, HEIGHT = 600.0; /* px, of the picture */
 static const double CENTRE_X = 260.0, CENTRE_Y = 300.0, RADIUS = 210.0;
+static const double TITLE_WIDTH = 490.0, LARGEST_TITLE = 16.0, SMALLEST_TITLE = 10.0;
 static const double DEG = M_PI / 180.0;
 
 /* What a picture is drawn with. */
@@ -24,6 +25,7 @@ typedef struct polar_plot {
     double factor; /* of the unit for each cd */
     double top;    /* in the unit, at RADIUS */
     double step;   /* between rings */
+    double labels; /* deg, where the rings are labelled, on the right */
 } polar_plot;
 
 /* 1, 2, 2.5 or 5 times a power of ten, so that at most MOST_RINGS rings hold `most`. */
@@ -37,12 +39,28 @@ static double ring_step(double most)
     return 10.0 * power;
 }
 
-/* Text within XML, cut where the picture ends; control characters and what is no UTF-8 become
- * '?'. */
-static void xml_text(FILE *out, const char *s)
+/* The width of text in its own size, roughly: of a capital, or of a character of two cells. */
+static double text_width(const char *s, size_t bytes)
 {
-    size_t left = strlen(s);
-    for (int i = 0; left > 0 && i < LONGEST_TITLE; i++) {
+    double width = 0.0;
+    for (size_t i = 0; i < bytes; i++)
+        width += (s[i] & 0xc0) == 0x80 ? 0.0 : (s[i] & 0xf0) == 0xe0 ? 1.0 : 0.68;
+    return width;
+}
+
+/* The bytes of the title that fit where it is drawn smallest. */
+static size_t title_fits(const char *s)
+{
+    size_t n = strlen(s);
+    while (n > 0 && ((s[n] & 0xc0) == 0x80 || text_width(s, n) * SMALLEST_TITLE > TITLE_WIDTH))
+        n--;
+    return n;
+}
+
+/* Text within XML; control characters and what is no UTF-8 become '?'. */
+static void xml_text(FILE *out, const char *s, size_t left)
+{
+    while (left > 0) {
         size_t n = utf8_length(s, left);
         if (n == 0 || *s == 0x7f || (n == 1 && *s < ' '))
             fputc('?', out);
@@ -53,6 +71,17 @@ static void xml_text(FILE *out, const char *s)
         n = n ? n : 1;
         s += n, left -= n;
     }
+}
+
+/* As large as it fits; one that is too long is cut. */
+static void draw_title(FILE *out, const char *title)
+{
+    size_t bytes = title_fits(title);
+    double size  = fmin(LARGEST_TITLE, TITLE_WIDTH / fmax(text_width(title, bytes), 1.0));
+    fprintf(out, "<text x=\"%g\" y=\"28\" font-size=\"%.1f\" text-anchor=\"middle\">", CENTRE_X,
+            size);
+    xml_text(out, title, bytes);
+    fprintf(out, "%s</text>\n", title[bytes] ? "…" : "");
 }
 
 /* Where a value at the angle t from straight down, to the right, is drawn. */
@@ -83,9 +112,9 @@ static void draw_grid(const polar_plot *d)
                 t <= 180 ? t : 360 - t);
     }
     fprintf(d->out, "</g>\n<g fill=\"#404040\" font-size=\"11\">\n");
-    for (int i = 1; i <= rings; i++) { /* along 15 deg, between the spokes, on a white ground */
+    for (int i = 1; i <= rings; i++) { /* between the spokes, on a white ground */
         double x, y;
-        place(RADIUS * i / rings, 15.0, &x, &y);
+        place(RADIUS * i / rings, d->labels, &x, &y);
         fprintf(d->out,
                 "<text x=\"%.2f\" y=\"%.2f\" text-anchor=\"middle\" stroke=\"white\" "
                 "stroke-width=\"3\" paint-order=\"stroke\">%g</text>\n",
@@ -141,17 +170,36 @@ static void draw_curve(const polar_plot *d, double plane, const char *style)
 static const char *const FULL   = "stroke=\"#c02020\"";
 static const char *const BROKEN = "stroke=\"#2040c0\" stroke-dasharray=\"7 4\"";
 
+/* Where the curves leave most room for labels: of the angles between the spokes, that with the
+ * least light on the right within the width of a label; the first, of equal ones. */
+static double room_for_labels(const photometry *p)
+{
+    double best = 15.0, least = HUGE_VAL;
+    for (double t = 15.0; t < 180.0; t += 30.0) {
+        double most = 0.0;
+        for (double g = t - 14.0; g <= t + 14.0; g += 1.0)
+            most = fmax(most, fmax(photometry_candela(p, 0.0, g), photometry_candela(p, 90.0, g)));
+        if (most < least)
+            best = t, least = most;
+    }
+    return best;
+}
+
+/* One line for all planes where these are equal. */
 static void draw_legend(const polar_plot *d, const char *title, const char *unit)
 {
-    fprintf(d->out, "<text x=\"%g\" y=\"28\" font-size=\"16\" text-anchor=\"middle\">", CENTRE_X);
-    xml_text(d->out, title);
-    fprintf(d->out, "</text>\n<g font-size=\"12\">\n");
+    bool one = d->p->plane_count == 1;
+    draw_title(d->out, title);
+    fprintf(d->out, "<g font-size=\"12\">\n");
     fprintf(d->out, "<line x1=\"30\" y1=\"566\" x2=\"70\" y2=\"566\" stroke-width=\"2\" %s/>\n",
             FULL);
-    fprintf(d->out, "<text x=\"78\" y=\"570\">C0 – C180 (C0 right)</text>\n");
-    fprintf(d->out, "<line x1=\"220\" y1=\"566\" x2=\"260\" y2=\"566\" stroke-width=\"2\" %s/>\n",
-            BROKEN);
-    fprintf(d->out, "<text x=\"268\" y=\"570\">C90 – C270 (C90 right)</text>\n");
+    fprintf(d->out, "<text x=\"78\" y=\"570\">%s</text>\n",
+            one ? "C0 – C180, C90 – C270: all planes are the same" : "C0 – C180 (C0 right)");
+    if (!one)
+        fprintf(d->out,
+                "<line x1=\"220\" y1=\"566\" x2=\"260\" y2=\"566\" stroke-width=\"2\" %s/>\n"
+                "<text x=\"268\" y=\"570\">C90 – C270 (C90 right)</text>\n",
+                BROKEN);
     fprintf(d->out,
             "<text x=\"490\" y=\"570\" text-anchor=\"end\" font-weight=\"bold\">%s</text>\n", unit);
     fprintf(d->out, "</g>\n");
@@ -166,7 +214,8 @@ static void draw(const polar_plot *d, const char *title, const char *unit)
             WIDTH, HEIGHT, WIDTH, HEIGHT);
     draw_grid(d);
     draw_curve(d, 0.0, FULL);
-    draw_curve(d, 90.0, BROKEN);
+    if (d->p->plane_count > 1)
+        draw_curve(d, 90.0, BROKEN);
     draw_legend(d, title, unit);
     fprintf(d->out, "</svg>\n");
 }
@@ -175,7 +224,9 @@ bool photometry_plot(const photometry *p, const char *title, const char *path, l
 {
     bool relative        = p->lamp_lumens > 0.0;
     photometry_figures f = photometry_figure(p, path, NULL);
-    polar_plot d         = { .p = p, .factor = relative ? 1000.0 / p->lamp_lumens : 1.0 };
+    polar_plot d         = { .p      = p,
+                             .factor = relative ? 1000.0 / p->lamp_lumens : 1.0,
+                             .labels = room_for_labels(p) };
     double most          = f.maximum_cd * d.factor;
     most                 = most > 0.0 ? most : 1.0; /* a dark one: an empty diagram */
     d.step               = ring_step(most);

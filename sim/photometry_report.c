@@ -74,7 +74,7 @@ static void report_json(FILE *out, const char *file, const photometry *p,
     json_text(out, "flux_code", code);
     json_text(out, "symmetry", photometry_symmetry_name(p->symmetry));
     json_text(out, "opening", opening_shape_name(p->opening));
-    fprintf(out, "\"opening_m\":[%.9g,%.9g,%.9g],", (double)p->length, (double)p->width,
+    fprintf(out, "\"opening_m\":[%.6g,%.6g,%.6g],", (double)p->length, (double)p->width,
             (double)p->height);
     json_text(out, "length_along", p->length_along_deg == 0.0f ? "C0" : "C90");
     fputs("\"warnings\":[", out);
@@ -99,6 +99,14 @@ static void text_number(FILE *out, const char *label, bool known, int digits, do
         fprintf(out, "  %-34s%.*f\n", label, digits, value);
     else
         fprintf(out, "  %-34snot stated\n", label);
+}
+
+static double least_tilt_factor(const photometry *p)
+{
+    double least = (double)p->tilt_factor[0];
+    for (int i = 1; i < p->tilt_count; i++)
+        least = fmin(least, (double)p->tilt_factor[i]);
+    return least;
 }
 
 static void report_text(FILE *out, const char *file, const photometry *p,
@@ -132,6 +140,10 @@ static void report_text(FILE *out, const char *file, const photometry *p,
     fprintf(out, "  %-34s%.1f in C0-C180, %.1f in C90-C270\n", "field angle, 10 % (deg)",
             f->field_deg[0], f->field_deg[1]);
     text_words(out, "CIE flux code", code);
+    if (p->tilt_count > 0)
+        fprintf(out, "  %-34s%g at least, up to %g deg from down\n",
+                "factor of the lamp when tilted", least_tilt_factor(p),
+                (double)p->tilt_deg[p->tilt_count - 1]);
 }
 
 /* ---- files ------------------------------------------------------------------------------ */
@@ -142,6 +154,13 @@ static bool free_name(const char *path, const photometry_options *o, lux_error *
     if (o->overwrite || access(path, F_OK) != 0)
         return true;
     return failed(err, ERR_ARGUMENT, "%s: is there already; --overwrite replaces it", path);
+}
+
+/* The luminaire's name, or its number, or that of the file. */
+static const char *title_of(const photometry *p, const char *file)
+{
+    const char *slash = strrchr(file, '/');
+    return p->name[0] ? p->name : p->catalog[0] ? p->catalog : slash ? slash + 1 : file;
 }
 
 static bool report_file(FILE *out, const char *file, const photometry_options *o, bool *first,
@@ -156,8 +175,8 @@ static bool report_file(FILE *out, const char *file, const photometry_options *o
         if (o->write)
             done = free_name(o->write, o, err) && photometry_write(p, o->write, &warnings, err);
         if (done && o->plot)
-            done = free_name(o->plot, o, err) &&
-                   photometry_plot(p, p->name[0] ? p->name : file, o->plot, err);
+            done =
+                free_name(o->plot, o, err) && photometry_plot(p, title_of(p, file), o->plot, err);
         fputs(*first ? "" : o->json ? "," : "\n", out);
         *first = false;
         if (o->json)

@@ -119,7 +119,8 @@ TEST(plots_and_conversions_are_written_once)
     assert_true(done);
     const char *svg = slurp(plot);
     assert_non_null(strstr(svg, "cd/klm"));
-    assert_non_null(strstr(svg, "stroke-dasharray"));
+    assert_non_null(strstr(svg, "all planes are the same")); /* one line then */
+    assert_null(strstr(svg, "stroke-dasharray"));
     assert_non_null(strstr(svg, "</svg>\n"));
     assert_null(strstr(svg, "nan"));
     const char *ldt = slurp(out);
@@ -157,6 +158,51 @@ TEST(gamma_0_is_drawn_downward_and_to_scale)
     arena_clear(&a);
 }
 
+/* C0 100, C90 80, C180 60, C270 20 cd at gamma 0, falling in a line to 0 at 90; absolute. */
+TEST(two_lines_tell_the_planes_apart)
+{
+    const char *plot = "build/report.svg", *file = "build/report_planes.ies";
+    write_file(file, "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 5 1 2 0 0 0 1 1 10\n0 90\n0 90 180 270 "
+                     "360\n100 0 80 0 60 0 20 0 100 0\n");
+    arena a       = { 0 };
+    lux_error err = { 0 };
+    bool done;
+    photometry_options o = { .plot = plot };
+    notices n            = { .a = &a };
+    unlink(plot);
+    free(report(&file, 1, o, &done, &n, &err));
+    assert_true(done);
+    const char *svg = slurp(plot);
+    assert_non_null(strstr(svg, ">cd</text>")); /* no lamp lumens: not cd/klm */
+    assert_non_null(strstr(svg, ">report_planes.ies</text>"));
+    /* From C0 to C180 at 210 px for 100 cd; from C90 to C270, broken */
+    const char *full = strstr(svg, "#c02020\" points=\" 260.00,510.00 ");
+    assert_non_null(full);
+    assert_true(strstr(full, " 260.00,426.00\"") < strstr(full, "dasharray"));
+    const char *broken = strstr(svg, "dasharray=\"7 4\" points=\" 260.00,468.00 ");
+    assert_non_null(broken);
+    assert_non_null(strstr(broken, " 260.00,342.00\""));
+    unlink(plot), unlink(file);
+    arena_clear(&a);
+}
+
+TEST(long_titles_are_made_small_and_cut)
+{
+    const char *plot    = "build/report.svg";
+    arena a             = { 0 };
+    lux_error err       = { 0 };
+    const photometry *p = photometry_read(&a, GOOD, NULL, &err);
+    assert_true(photometry_plot(p, "A TITLE OF FORTY-SEVEN LETTERS, ALL OF THEM BIG", plot, &err));
+    assert_non_null(strstr(slurp(plot), "font-size=\"15.3\"")); /* 490 / (47 0.68) */
+    char title[400] = { 0 };
+    for (int i = 0; i < 100; i++) /* three bytes each */
+        memcpy(title + 3 * i, "\xe3\x81\x82", 3);
+    assert_true(photometry_plot(p, title, plot, &err));
+    assert_non_null(strstr(slurp(plot), "\xe3\x81\x82…</text>"));
+    unlink(plot);
+    arena_clear(&a);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -164,6 +210,8 @@ int main(void)
         cmocka_unit_test(a_refused_file_does_not_hide_the_others),
         cmocka_unit_test(plots_and_conversions_are_written_once),
         cmocka_unit_test(gamma_0_is_drawn_downward_and_to_scale),
+        cmocka_unit_test(two_lines_tell_the_planes_apart),
+        cmocka_unit_test(long_titles_are_made_small_and_cut),
     };
     return cmocka_run_group_tests(tests, prepare, clean);
 }

@@ -217,36 +217,30 @@ static bool read_angles(scanner *c, const char *what, double *out, int count, do
 
 static bool near(double a, double b) { return fabs(a - b) < 0.01; }
 
-/* The planes that are stored, of all that are listed: how many, and at which angles. Stockmar
- * numbers them from C0 up; symmetric about C90-C270, from C270 by way of C0 to C90. Writers that
- * begin at C90 list the angles so. */
-static int stored_planes(const ldt_header *h, const double *listed, double *stored, bool *fits)
+static int stored_count(const ldt_header *h)
 {
-    int mc = h->planes, first = 0, count = mc;
-    double ends[2] = { listed[0], listed[mc - 1] };
-    switch (h->symmetry) {
-    case 1:
-        count = 1;
-        break;
-    case 2:
-        count = mc / 2 + 1, ends[0] = 0.0, ends[1] = 180.0;
-        break;
-    case 4:
-        count = mc / 4 + 1, ends[0] = 0.0, ends[1] = 90.0;
-        break;
-    case 3:
-        count   = mc / 2 + 1;
-        first   = near(listed[0], 0.0) ? 3 * mc / 4 : 0;
-        ends[0] = near(listed[first], 90.0) ? 90.0 : 270.0;
-        ends[1] = 360.0 - ends[0];
-        break;
-    default:
-        break;
+    int mc = h->planes;
+    return h->symmetry == 0   ? mc
+           : h->symmetry == 1 ? 1
+           : h->symmetry == 4 ? mc / 4 + 1
+                              : mc / 2 + 1;
+}
+
+/* The angles of the planes that are stored, of all that are listed; false where these are not
+ * those of the symmetry. Stockmar numbers them from C0 up; symmetric about C90-C270, from C270 by
+ * way of C0 to C90. Writers that begin at C90 list the angles so. */
+static bool list_stored(const ldt_header *h, const double *listed, int count, double *stored)
+{
+    int mc = h->planes, first = 0;
+    double from = 0.0, to = h->symmetry == 2 ? 180.0 : 90.0;
+    if (h->symmetry == 3) {
+        first = near(listed[0], 0.0) ? 3 * mc / 4 : 0;
+        from  = near(listed[first], 90.0) ? 90.0 : 270.0;
+        to    = 360.0 - from;
     }
     for (int i = 0; i < count; i++)
         stored[i] = listed[(first + i) % mc];
-    *fits = h->symmetry < 2 || (near(stored[0], ends[0]) && near(stored[count - 1], ends[1]));
-    return count;
+    return h->symmetry < 2 || mc == 1 || (near(stored[0], from) && near(stored[count - 1], to));
 }
 
 static void check_step(scanner *c, const char *what, int line, const double *at, int count,
@@ -281,16 +275,20 @@ static bool read_intensities(scanner *c, stored_web *w, double factor, lux_error
 static bool read_web(photometry *p, scanner *c, const ldt_header *h, lux_error *err)
 {
     stored_web w;
-    bool fits;
     double *listed = arena_array(c->a, double, (size_t)h->planes, err);
-    if (!listed || !stored_web_new(&w, h->planes, h->gammas, c, err))
+    if (!listed || !stored_web_of_text(&w, stored_count(h), h->gammas, c, err))
         return false;
     w.plane_line = c->line, w.plane_column = 1;
     if (!read_angles(c, "C plane", listed, h->planes, 360.0, h->symmetry == 3, err))
         return false;
+<<<<<<< HEAD
     w.gamma_line  = c->line + 1; /* the cursor is behind the last plane */
     w.plane_count = stored_planes(h, listed, w.plane, &fits);
     if (!fits)
+=======
+    w.gamma_line = c->line + 1; /* the cursor is behind the last plane */
+    if (!list_stored(h, listed, w.plane_count, w.plane))
+>>>>>>> h_photometry
         return failed(err, ERR_FORMAT,
                       "%s:%d:1: found C planes from %g to %g for symmetry %d, expected "
                       "%s",

@@ -222,20 +222,21 @@ static bool read_candelas(scanner *c, stored_web *w, double factor, lux_error *e
 
 static bool near(double a, double b) { return fabs(a - b) < 0.01; }
 
+static const struct {
+    double first, last;
+    photometry_symmetry symmetry;
+    bool standard;
+} ranges[] = {
+    { 0, 90, SYMMETRY_QUADRANT, true }, { 0, 180, SYMMETRY_C0, true },
+    { 90, 270, SYMMETRY_C90, true },    { 0, 360, SYMMETRY_NONE, true },
+    { 180, 360, SYMMETRY_C0, false },   { -90, 90, SYMMETRY_C90, false },
+    { -180, 0, SYMMETRY_C0, false },    { -180, 180, SYMMETRY_NONE, false },
+    { 270, 450, SYMMETRY_C90, false },
+};
+
 /* What the horizontal angles of type C stand for. */
 static bool find_symmetry(photometry *p, scanner *c, const stored_web *w, lux_error *err)
 {
-    static const struct {
-        double first, last;
-        photometry_symmetry symmetry;
-        bool standard;
-    } ranges[] = {
-        { 0, 90, SYMMETRY_QUADRANT, true }, { 0, 180, SYMMETRY_C0, true },
-        { 90, 270, SYMMETRY_C90, true },    { 0, 360, SYMMETRY_NONE, true },
-        { 180, 360, SYMMETRY_C0, false },   { -90, 90, SYMMETRY_C90, false },
-        { -180, 0, SYMMETRY_C0, false },    { -180, 180, SYMMETRY_NONE, false },
-        { 270, 450, SYMMETRY_C90, false },
-    };
     double first = w->plane[0], last = w->plane[w->plane_count - 1];
     if (w->plane_count == 1) {
         if (first != 0.0)
@@ -320,7 +321,12 @@ bool photometry_read_ies(photometry *p, scanner *c, lux_error *err)
     if (!ies_read_labels(p, c, &tilt, err) || !ies_read_tilt(p, c, &tilt, err) ||
         !read_header(c, &h, err) || !settle_header(p, c, &h, &factor, err))
         return false;
+<<<<<<< HEAD
     if (!stored_web_new(&w, (int)h.at[HORIZONTALS], (int)h.at[VERTICALS], &h.place[VERTICALS], err))
+=======
+    if (!stored_web_of_text(&w, (int)h.at[HORIZONTALS], (int)h.at[VERTICALS], &h.place[VERTICALS],
+                            err))
+>>>>>>> h_photometry
         return false;
 
     /* In 1986 type 1 was A as well as C: C has no vertical angles below 0 */

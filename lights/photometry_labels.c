@@ -99,10 +99,19 @@ static void read_label(photometry *p, scanner *c, const scanned_line *l)
         { "[LAMP]", &p->lamp },      { "[ISSUEDATE]", &p->date },
         { "[DATE]", &p->date },
     };
+    const char *text = l->text;
+    size_t length    = l->length;
+    for (; length > 0 && (*text == ' ' || *text == '\t'); text++)
+        length--;
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
         size_t n = strlen(keys[i].key);
+<<<<<<< HEAD
         if (scan_begins(l->text, l->length, keys[i].key) && !**keys[i].value)
             *keys[i].value = scan_words(c, l->text + n, l->length - n);
+=======
+        if (scan_begins(text, length, keys[i].key) && !**keys[i].value)
+            *keys[i].value = scan_words(c, text + n, length - n);
+>>>>>>> h_photometry
     }
 }
 

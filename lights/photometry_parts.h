@@ -84,6 +84,9 @@ typedef struct stored_web {
 /* Room for a web in c->a; the product of the counts, which c stands at, is checked. */
 bool stored_web_new(stored_web *w, int planes, int gammas, scanner *c, lux_error *err);
 
+/* The same for one that is written out in what is left of the text: no room is made for more. */
+bool stored_web_of_text(stored_web *w, int planes, int gammas, scanner *c, lux_error *err);
+
 /* Makes *p's web of w, mirrored as p->symmetry says. */
 bool web_unfold(photometry *p, const stored_web *w, scanner *c, lux_error *err);
 

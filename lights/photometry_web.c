@@ -45,6 +45,17 @@ bool stored_web_new(stored_web *w, int planes, int gammas, scanner *c, lux_error
     return w->candela != NULL;
 }
 
+bool stored_web_of_text(stored_web *w, int planes, int gammas, scanner *c, lux_error *err)
+{
+    if ((int64_t)planes * gammas <= MOST_VALUES &&
+        (int64_t)planes * gammas > (c->end - c->at + 1) / 2) /* a digit and a blank, each */
+        return failed(err, ERR_FORMAT,
+                      "%s:%d:%d: found %d planes of %d angles, expected no more values than the "
+                      "file has room for",
+                      c->path, c->line, scan_column(c), planes, gammas);
+    return stored_web_new(w, planes, gammas, c, err);
+}
+
 /* ---- mirrors ---------------------------------------------------------------------------- */
 
 /* A plane of the whole web and the stored one that it equals. */

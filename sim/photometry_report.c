@@ -74,7 +74,7 @@ static void report_json(FILE *out, const char *file, const photometry *p,
     json_text(out, "flux_code", code);
     json_text(out, "symmetry", photometry_symmetry_name(p->symmetry));
     json_text(out, "opening", opening_shape_name(p->opening));
-    fprintf(out, "\"opening_m\":[%.9g,%.9g,%.9g],", (double)p->length, (double)p->width,
+    fprintf(out, "\"opening_m\":[%.6g,%.6g,%.6g],", (double)p->length, (double)p->width,
             (double)p->height);
     json_text(out, "length_along", p->length_along_deg == 0.0f ? "C0" : "C90");
     fputs("\"warnings\":[", out);

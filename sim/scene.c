@@ -145,10 +145,7 @@ static bool make_sets(scene_build *b, scene *s)
 /* Glowing surfaces are of the group of lights that are in none. */
 static bool take_groups(scene_build *b, scene *s)
 {
-    s->glow_dimming = 1.0f;
-    for (int i = 0; i < b->study->dimming_count; i++)
-        if (!strcmp(b->study->dimmings[i].group, STUDY_GROUP_OTHER))
-            s->glow_dimming *= (float)b->study->dimmings[i].factor;
+    s->glow_dimming    = (float)study_group_factor(b->study, NULL);
     const char **names = b->groups.items;
     size_t other       = 0;
     while (other < b->groups.count && strcmp(names[other], STUDY_GROUP_OTHER) != 0)

@@ -20,15 +20,16 @@ vec3 lamp_watts(vec3 color, double per_lumen_unit)
     return v3_scale(color, (float)(per_lumen_unit / LUMENS_PER_WATT));
 }
 
+double lamp_tilt(const photometry *web, dvec3 aim)
+{
+    double down = -aim.z / d3_length(aim);
+    return photometry_tilt_factor(web, acos(fmax(-1.0, fmin(down, 1.0))) * (180.0 / M_PI));
+}
+
 /* Of the lamp and its group together. */
 static double dimming_of(const scene_build *b, const study_emission *e)
 {
-    const char *group = e->group ? e->group : STUDY_GROUP_OTHER;
-    double factor     = e->dimming;
-    for (int i = 0; i < b->study->dimming_count; i++)
-        if (!strcmp(b->study->dimmings[i].group, group))
-            factor *= b->study->dimmings[i].factor;
-    return factor;
+    return e->dimming * study_group_factor(b->study, e->group);
 }
 
 double lamp_made_with(const scene_build *b, const study_emission *e)
@@ -423,7 +424,9 @@ static const light *make_shaped(light_work *w, int k, const photometry *web)
                          .scale    = lamp_watts(w->from->emission.color, factor * w->made_with),
                          .web      = own };
     frame_of_shape(w, k, web, &d);
-    w->lumens = factor * web->luminaire_lumens;
+    double tilt = lamp_tilt(web, d3_from(d.aim));
+    d.scale     = v3_scale(d.scale, (float)tilt);
+    w->lumens   = tilt * factor * web->luminaire_lumens;
     return light_luminaire(w->b->a, &d, w->b->err);
 }
 

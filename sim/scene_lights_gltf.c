@@ -77,6 +77,7 @@ static const light *make_measured(gltf_work *w)
     w->web = web_of(w);
     if (!w->web)
         return NULL;
+    w->strength *= lamp_tilt(w->web, w->along);
     luminaire_desc d = { .position = w->place,
                          .aim      = w->aim,
                          .c0       = d3_to_float(w->x),

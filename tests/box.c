@@ -4,6 +4,38 @@
 #include "sim/room.h"
 #include "tests/test.h"
 
+/* The glowing triangles as lights, and no lamps. */
+static void add_emitters(arena *a, scene *s, const mesh *m, const vec3 emission[ROOM_MATERIALS])
+{
+    const light **lights = arena_array(a, const light *, ROOM_TRIANGLES, NULL);
+    int32_t *of          = arena_array(a, int32_t, ROOM_TRIANGLES, NULL);
+    int32_t *numbers     = arena_array(a, int32_t, ROOM_TRIANGLES, NULL);
+    int64_t *first       = arena_new(a, int64_t, NULL);
+    light_set *set       = arena_new(a, light_set, NULL);
+    for (uint32_t t = 0; t < m->triangle_count; t++) {
+        triangle_desc d = { .radiance = emission[m->material[t]] };
+        for (uint32_t c = 0; c < 3; c++)
+            d.corner[c] = m->positions[m->corners[3 * t + c]];
+        of[t] = -1;
+        if (!(d.radiance.x > 0.0f))
+            continue;
+        of[t]                      = s->emitter_count;
+        numbers[s->emitter_count]  = s->emitter_count;
+        lights[s->emitter_count++] = light_triangle(a, &d, NULL);
+    }
+    *set             = (light_set){ .lights   = numbers,
+                                    .emitters = s->emitter_count,
+                                    .tree     = light_tree_new(a, lights, s->emitter_count, NULL) };
+    s->lights        = lights;
+    s->first_emitter = first;
+    s->emitter_of    = of;
+    s->sets          = set;
+    s->set_count     = 1;
+    s->glow_set      = *set;
+    s->glow_dimming  = 1.0f;
+    assert_non_null(set->tree);
+}
+
 const scene *box_scene(arena *a, dvec3 size, const vec3 reflectance[ROOM_MATERIALS],
                        const vec3 emission[ROOM_MATERIALS], bool lid)
 {
@@ -44,8 +76,8 @@ const scene *box_scene(arena *a, dvec3 size, const vec3 reflectance[ROOM_MATERIA
     s->material_count = ROOM_MATERIALS;
     s->materials      = m;
     s->glows          = glows;
-    s->glow_share     = glows;
     s->reflects       = true;
+    add_emitters(a, s, &box, emission);
     assert_non_null(s->world);
     return s;
 }

@@ -26,7 +26,7 @@ bool box_ies_read(arena *a, box_ies *out)
         return false;
     lux_error err  = { 0 };
     const study *s = study_read(a, BOX_IES_FOLDER "/study.yaml", NULL, NULL, &err);
-    out->scene     = s ? scene_new(a, s, 1, NULL, &err) : NULL;
+    out->scene     = s ? scene_new(a, s, &(scene_options){ .threads = 1 }, NULL, &err) : NULL;
     if (!out->scene)
         fail_msg("%s", err.text);
     return true;

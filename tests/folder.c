@@ -51,7 +51,7 @@ const scene *scene_of_text(arena *a, const char *yaml)
     const study *s = study_read(a, path, NULL, NULL, &err);
     if (!s)
         fail_msg("%s", err.text);
-    const scene *made = scene_new(a, s, 1, NULL, &err);
+    const scene *made = scene_new(a, s, &(scene_options){ .threads = 1 }, NULL, &err);
     if (!made)
         fail_msg("%s", err.text);
     folder_free(folder);

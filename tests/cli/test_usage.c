@@ -92,11 +92,10 @@ TEST(commands_that_are_promised_are_refused_by_name)
 
 TEST(options_that_are_promised_are_refused_by_name)
 {
-    static const char *const options[] = { "--groups",    "--schedule", "--transport",
-                                           "--save-maps", "--resume",   "--no",
-                                           "--only",      "--tone",     "--false-color" };
+    static const char *const options[] = { "--transport", "--save-maps", "--resume",     "--no",
+                                           "--only",      "--tone",      "--false-color" };
     char *folder                       = folder_of_study(room);
-    for (int i = 0; i < 9; i++) {
+    for (int i = 0; i < 7; i++) {
         LUX4_FAILS(folder, 2, "is not supported yet", "grid", "study.yaml", options[i], "auto");
         LUX4_FAILS(folder, 2, "is not supported yet", "render", options[i], "study.yaml");
     }

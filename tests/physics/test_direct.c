@@ -47,7 +47,7 @@ TEST(a_tilted_sensor_follows_the_cosine)
                  "grids: [{name: tilted, points: tilted.csv}]\n");
     snprintf(path, sizeof path, "%s/study.yaml", folder);
     const study *st = study_read(&a, path, NULL, NULL, NULL);
-    const scene *s  = scene_new(&a, st, 1, NULL, NULL);
+    const scene *s  = scene_new(&a, st, &(scene_options){ .threads = 1 }, NULL, NULL);
     grid_result r;
     grid_of_scene(&a, s, 0, &(run_options){ .seed = 1 }, &r);
     const double cosine[] = { 1.0, sqrt(0.5), 0.0, 0.0, 0.8 };

@@ -78,6 +78,12 @@ TEST(symmetries_are_unfolded_as_stockmar_numbers_planes)
     assert_non_null(read_ldt(t));
     assert_true(r.p->plane_count == 1 && at(200, 90) == 18);
     assert_int_equal(r.n.count, 0);
+
+    t          = plain; /* one plane can only be the same all around */
+    t.symmetry = "3";
+    assert_non_null(read_ldt(t));
+    assert_int_equal(r.p->symmetry, SYMMETRY_ROTATIONAL);
+    assert_true(noticed("t:3: one C plane with symmetry 3: taken as rotationally symmetric"));
 }
 
 TEST(openings_are_round_where_the_width_is_0)
@@ -244,6 +250,29 @@ TEST(a_stated_output_that_the_web_does_not_have_is_doubted)
     assert_true(noticed("more than its lamps"));
 }
 
+/* The sheet's web has a LOR of 1 - 2 / pi times 2 pi / 10: 22.83 %, and states 100 %. */
+TEST(doubt_begins_at_5_percent_and_at_a_lor_of_102)
+{
+    const struct {
+        double lor;
+        bool differs, too_much;
+    } cases[] = { { 0.94, true, false },
+                  { 0.96, false, false },
+                  { 1.01, false, false },
+                  { 1.03, false, true },
+                  { 1.06, true, true } };
+    for (int i = 0; i < 5; i++) {
+        ldt t = plain;
+        char factor[32];
+        snprintf(factor, sizeof factor, "%.12g", cases[i].lor / (0.2 * M_PI * (1.0 - 2.0 / M_PI)));
+        t.factor = factor;
+        assert_non_null(read_ldt(t));
+        assert_near(photometry_figure(r.p, "t", &r.n).lor, cases[i].lor, 1e-6);
+        assert_true(noticed("is stated as 100.0 %") == cases[i].differs);
+        assert_true(noticed("more than its lamps") == cases[i].too_much);
+    }
+}
+
 /* ---- figures ---------------------------------------------------------------------------- */
 
 /* I = 100 (1 - gamma / 90): half at 45 deg, a tenth at 81, on both sides. The flux within g is
@@ -299,6 +328,7 @@ int main(void)
         cmocka_unit_test(blank_lines_before_the_first_are_passed_over),
         cmocka_unit_test(what_eulumdat_cannot_mean_is_refused_at_its_place),
         cmocka_unit_test(a_stated_output_that_the_web_does_not_have_is_doubted),
+        cmocka_unit_test(doubt_begins_at_5_percent_and_at_a_lor_of_102),
         cmocka_unit_test(figures_of_a_straight_line_are_its_closed_forms),
         cmocka_unit_test(a_beam_on_one_side_is_as_wide_as_it_is),
     };

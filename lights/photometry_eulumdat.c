@@ -281,14 +281,8 @@ static bool read_web(photometry *p, scanner *c, const ldt_header *h, lux_error *
     w.plane_line = c->line, w.plane_column = 1;
     if (!read_angles(c, "C plane", listed, h->planes, 360.0, h->symmetry == 3, err))
         return false;
-<<<<<<< HEAD
-    w.gamma_line  = c->line + 1; /* the cursor is behind the last plane */
-    w.plane_count = stored_planes(h, listed, w.plane, &fits);
-    if (!fits)
-=======
     w.gamma_line = c->line + 1; /* the cursor is behind the last plane */
     if (!list_stored(h, listed, w.plane_count, w.plane))
->>>>>>> h_photometry
         return failed(err, ERR_FORMAT,
                       "%s:%d:1: found C planes from %g to %g for symmetry %d, expected "
                       "%s",

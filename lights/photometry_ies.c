@@ -321,12 +321,8 @@ bool photometry_read_ies(photometry *p, scanner *c, lux_error *err)
     if (!ies_read_labels(p, c, &tilt, err) || !ies_read_tilt(p, c, &tilt, err) ||
         !read_header(c, &h, err) || !settle_header(p, c, &h, &factor, err))
         return false;
-<<<<<<< HEAD
-    if (!stored_web_new(&w, (int)h.at[HORIZONTALS], (int)h.at[VERTICALS], &h.place[VERTICALS], err))
-=======
     if (!stored_web_of_text(&w, (int)h.at[HORIZONTALS], (int)h.at[VERTICALS], &h.place[VERTICALS],
                             err))
->>>>>>> h_photometry
         return false;
 
     /* In 1986 type 1 was A as well as C: C has no vertical angles below 0 */

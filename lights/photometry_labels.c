@@ -105,13 +105,8 @@ static void read_label(photometry *p, scanner *c, const scanned_line *l)
         length--;
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
         size_t n = strlen(keys[i].key);
-<<<<<<< HEAD
-        if (scan_begins(l->text, l->length, keys[i].key) && !**keys[i].value)
-            *keys[i].value = scan_words(c, l->text + n, l->length - n);
-=======
         if (scan_begins(text, length, keys[i].key) && !**keys[i].value)
             *keys[i].value = scan_words(c, text + n, length - n);
->>>>>>> h_photometry
     }
 }
 

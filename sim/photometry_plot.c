@@ -174,11 +174,7 @@ static const char *const BROKEN = "stroke=\"#2040c0\" stroke-dasharray=\"7 4\"";
  * least light on the right within the width of a label; the first, of equal ones. */
 static double room_for_labels(const photometry *p)
 {
-<<<<<<< HEAD
-    double best = 15.0, least = INFINITY;
-=======
     double best = 15.0, least = HUGE_VAL;
->>>>>>> h_photometry
     for (double t = 15.0; t < 180.0; t += 30.0) {
         double most = 0.0;
         for (double g = t - 14.0; g <= t + 14.0; g += 1.0)

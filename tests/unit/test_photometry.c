@@ -228,13 +228,8 @@ TEST(line_ends_marks_and_wrapping_do_not_matter)
         "IESNA:LM-63-2002\n[MANUFAC] Somebody\nTILT=NONE\n+1 -1.0E0 1.e0 3 1 1 2 .0 0. 0 1 1 9\n0 "
         "4.5e1 "
         "90 0 1E2 50 0",
-<<<<<<< HEAD
-        "IESNA:LM-63-2002\r\r\n[MANUFAC] Somebody\r\r\nTILT=NONE\r\r\n1 -1 1 3 1 1 2 0 0 0 1 1 "
-        "9\r\r\n0 45 90 0 100 50 0\r\r\n",
-=======
         ("IESNA:LM-63-2002\r\r\n[MANUFAC] Somebody\r\r\nTILT=NONE\r\r\n1 -1 1 3 1 1 2 0 0 0 1 1 "
          "9\r\r\n0 45 90 0 100 50 0\r\r\n"),
->>>>>>> h_photometry
     };
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         assert_non_null(read_text(texts[i]));
@@ -306,12 +301,9 @@ TEST(what_cannot_be_understood_is_refused_at_its_place)
                    "factors");
     assert_refused("IESNA91\nTILT=NONE\n1 1 1 20000 20000 1 2 0 0 0 1 1 1\n",
                    "t:3:7: found 20000 planes of 20000 angles, expected at most 4194304 values");
-<<<<<<< HEAD
-=======
     assert_refused("IESNA91\nTILT=NONE\n1 1 1 2000 2000 1 2 0 0 0 1 1 1\n",
                    "t:3:7: found 2000 planes of 2000 angles, expected no more values than the file "
                    "has room for");
->>>>>>> h_photometry
     assert_null(read_bytes("IESNA91\0TILT=NONE\n", 18));
     assert_string_equal(r.err.text, "t:1:8: found a byte 0, expected a text file");
     assert_null(read_bytes("\xff\xfeI\0E\0", 6));

@@ -329,6 +329,25 @@ TEST(the_bounds_hold_the_opening_and_its_light)
     arena_clear(&a);
 }
 
+/* A box x in +-0.6, y in +-0.15, z in +-0.05 m, seen from 1 m below beside its end. */
+TEST(a_light_is_whole_unless_the_horizon_cuts_its_box)
+{
+    const light_bounds b = { .low = { -0.6f, -0.15f, -0.05f }, .high = { 0.6f, 0.15f, 0.05f } };
+    const vvec3 p        = vspread((vec3){ 0.6f, 0, -1.05f });
+    const struct {
+        vec3 n;
+        bool whole;
+    } cases[] = { { { 0, 0, 1 }, true },         { { 0, 0, -1 }, true },
+                  { { 1, 0, 0 }, true },         { { 0, 1, 0 }, false },
+                  { { 0.99f, 0, 0.1f }, false }, { { 0.707f, 0, 0.707f }, false },
+                  { { -0.6f, 0, 0.8f }, true },  { { 0.6f, 0, 0.8f }, true } };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        vvec3 n = vspread(cases[i].n);
+        assert_true(vall(vlight_is_whole(&b, &p, &n, ALL_LANES)) == cases[i].whole);
+        assert_false(vany(vlight_is_whole(&b, &p, &n, ~ALL_LANES)));
+    }
+}
+
 TEST(sizes_that_make_no_sense_are_refused)
 {
     arena a           = { 0 };
@@ -370,6 +389,7 @@ int main(void)
         cmocka_unit_test(the_weight_is_about_the_irradiance),
         cmocka_unit_test(dead_lanes_are_zero),
         cmocka_unit_test(the_bounds_hold_the_opening_and_its_light),
+        cmocka_unit_test(a_light_is_whole_unless_the_horizon_cuts_its_box),
         cmocka_unit_test(sizes_that_make_no_sense_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

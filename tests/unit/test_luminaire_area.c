@@ -204,6 +204,19 @@ TEST(close_to_a_panel_nothing_is_above_pi_times_its_radiance)
         print_message("%8g m: %.4f pi L, deviation of one sample %.3f of it\n", (double)z[i],
                       e / pi_l, deviation / e);
     }
+
+    /* Edge on an isotropic web is bright without bound: 2 / 0.36 log(0.6 / z) or so, facing along
+     */
+    w->candela = web_make(&a, web_isotropic, 1, 1)->candela;
+    l          = light_luminaire(&a, &d, NULL);
+    for (int i = 0; i < 5; i++) {
+        double deviation = 0.0;
+        vec3 p           = { 0.1f, 0.05f, -z[i] };
+        double e         = mean_irradiance(l, p, (vec3){ 1, 0, 0 }, 12, &deviation);
+        assert_true(deviation < 8.0 * e);
+        print_message("%8g m, isotropic, facing along: %.3f, deviation %.3f of it\n", (double)z[i],
+                      e, deviation / e);
+    }
     arena_clear(&a);
 }
 

@@ -300,9 +300,10 @@ typedef struct vweb_change {
 static vweb_change change_at(const luminaire *l, vfloat gamma, vfloat rho, vmask active)
 {
     vint step = vto_int(vmin(gamma * (float)(HOMES / M_PI), vsplat((float)(HOMES - 1))));
-    vint rung = vto_int(vmin(-vlog2(rho) - 1.0f - 1e-5f, vsplat((float)(RUNGS - 1))));
-    rung      = vselect_int(rung < 0, vsplat_int(0), rung);
-    vint at   = vkeep_int(active, (step * RUNGS + rung) * FIGURES);
+    /* rho = 1/2, 1/4, ... are the ends of rungs; a rounding above counts as below */
+    vfloat halvings = vmin(-vlog2(rho) - (1.0f + 1e-5f), vsplat((float)(RUNGS - 1)));
+    vint rung       = vto_int(vmax(halvings, vsplat(0.0f)));
+    vint at         = vkeep_int(active, (step * RUNGS + rung) * FIGURES);
     return (vweb_change){ vgather(l->error, at), vgather(l->error, at + 1),
                           vgather(l->error, at + 2), vgather(l->error, at + 3) };
 }

@@ -33,7 +33,7 @@ typedef struct opening_type {
     vmask (*meet)(const opening *o, const vvec3 *q, const vvec3 *w, vmask active,
                   vopening_place *out);
 
-    /* m^2, A(w). NULL: what is spread along or across is the same for every w (line, flat). */
+    /* m^2, A(w). NULL: a line. */
     vfloat (*projected)(const opening *o, const vvec3 *w);
 } opening_type;
 
@@ -45,9 +45,9 @@ struct opening {
     float area;               /* m^2, seen along the direction from which most of it is seen, */
     float least_area;         /* m^2, and from which least */
     bool flat;                /* a plane figure, across its own axis z, or a line */
-    float mean1;              /* m, if flat: the mean distance of its places from the centre, */
-    float mean2;              /* m^2, its mean square, */
-    float mean2_along;        /* m^2, and the mean square along the axis where it is greatest */
+    float mean1;       /* m, if flat: at least the mean distance of its places from the centre, */
+    float mean2;       /* m^2, its mean square, */
+    float mean2_along; /* m^2, and the mean square along the axis where it is greatest */
 };
 
 extern const opening_type opening_line, opening_box, opening_cylinder, opening_ellipsoid;

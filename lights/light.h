@@ -69,9 +69,10 @@ typedef struct light_type {
     vfloat (*weight)(const light *self, const vvec3 *p, const vvec3 *n, vmask active);
 
     /* The light as if all of it came from its centre: *out as sample() gives it. In *error a bound
-     * on what that is off, as a luminance in W/m^2, for a surface at p however it is turned;
-     * INFINITY close by, where no such bound is known. NULL for a light without extent, of which
-     * sample() is exact. */
+     * on what that is off, as a luminance in W/m^2, for a surface at p however it is turned, if its
+     * horizon does not cut the light's box (vlight_is_whole): the part of a light that is below it
+     * is worth more than that. Also in active lanes where the centre is dark; INFINITY close by,
+     * where no such bound is known. NULL for a light without extent, of which sample() is exact. */
     vmask (*as_point)(const light *self, const vvec3 *p, vmask active, vlight_sample *out,
                       vfloat *error);
 
@@ -105,6 +106,10 @@ static inline bool light_has_extent(const light *l) { return l->type->as_point !
 /* An upper bound of the irradiance, as a luminance in W/m^2, on any surface at p, nothing in
  * between: peak / distance^2 to the box; INFINITY within the box. */
 vfloat vlight_power_bound(const light_bounds *b, const vvec3 *p, vmask active);
+
+/* The lanes where the light's box is all above or all below the horizon of a surface at p with the
+ * normal n. */
+vmask vlight_is_whole(const light_bounds *b, const vvec3 *p, const vvec3 *n, vmask active);
 
 /* Makers: check *d, copy it into a, and return a light that lives as long as a does,
  * or NULL with *err filled in; a is then as it was. */

@@ -27,8 +27,12 @@
  * good to about 1e-7, and their rounding must not choose which way the luminaire turns over. */
 static const double STRAIGHT_UP = 1e-6;
 
-vmask luminaire_point(const luminaire *l, const vvec3 *p, vmask active, vlight_sample *out)
+static vmask point_sample(const light *self, const vvec3 *p, vfloat s, vfloat t, vmask active,
+                          vlight_sample *out)
 {
+    const luminaire *l = (const luminaire *)self;
+    (void)s, (void)t; /* there is but one place to draw */
+
     vvec3 to     = vsub(vspread(l->position), *p);
     vfloat dist2 = vdot(to, to);
     vfloat dist  = vsqrt(dist2);
@@ -42,13 +46,6 @@ vmask luminaire_point(const luminaire *l, const vvec3 *p, vmask active, vlight_s
     out->e    = vscale(vspread(l->scale), vkeep(lit, cd / dist2));
     out->pdf  = vkeep(lit, vsplat(INFINITY));
     return lit;
-}
-
-static vmask point_sample(const light *self, const vvec3 *p, vfloat s, vfloat t, vmask active,
-                          vlight_sample *out)
-{
-    (void)s, (void)t; /* there is but one place to draw */
-    return luminaire_point((const luminaire *)self, p, active, out);
 }
 
 vec3 luminaire_flux(const light *self)

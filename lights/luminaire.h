@@ -31,9 +31,6 @@ typedef struct luminaire {
 
 extern const light_type luminaire_area_type, luminaire_line_type;
 
-/* As sample() if all light came from the position. */
-vmask luminaire_point(const luminaire *l, const vvec3 *p, vmask active, vlight_sample *out);
-
 vec3 luminaire_flux(const light *self);
 vec3 luminaire_peak(const light *self, vec3 *toward);
 light_bounds luminaire_bounds(const light *self);
@@ -45,9 +42,19 @@ bool luminaire_make_error(luminaire *l, const struct photometry *web, arena *a, 
 vmask luminaire_as_point(const light *self, const vvec3 *p, vmask active, vlight_sample *out,
                          vfloat *error);
 
-/* cd, toward a point that sees the place along the unit vector wi; the lanes where it is not dark.
- * Where the point lies in the luminaire's frame is gamma = atan2(sqrt(x^2 + y^2), -z), C = atan2(y,
- * x). */
+/* cd in the direction (x, y, down) of the luminaire's frame, which is at gamma: gamma =
+ * atan2(sqrt(x^2
+ * + y^2), down), C = atan2(y, x); the lanes where it is not dark. */
+static inline vmask vluminaire_lookup(const luminaire *l, vfloat x, vfloat y, vfloat gamma,
+                                      vmask active, vfloat *cd)
+{
+    vfloat plane = l->axes[0].count > 1 ? vatan2(y, x) : vsplat(0.0f);
+    *cd          = vtable_lookup2(l->candela, l->axes, plane, gamma);
+    return active & (gamma >= l->gamma_from) & (gamma <= l->gamma_to) & (*cd > 0.0f);
+}
+
+/* cd toward a point that sees the place along the unit vector wi; the lanes where it is not dark.
+ */
 static inline vmask vluminaire_candela(const luminaire *l, vvec3 wi, vmask active, vfloat *cd)
 {
     vfloat x     = -vdot(wi, vspread(l->c0));
@@ -56,11 +63,7 @@ static inline vmask vluminaire_candela(const luminaire *l, vvec3 wi, vmask activ
     vmask inside = active & (down >= l->down_least) & (down <= l->down_most);
     if (!vany(inside))
         return inside;
-    vfloat gamma = vatan2(vsqrt(x * x + y * y), down);
-    vfloat plane = l->axes[0].count > 1 ? vatan2(y, x) : vsplat(0.0f);
-
-    *cd = vtable_lookup2(l->candela, l->axes, plane, gamma);
-    return inside & (gamma >= l->gamma_from) & (gamma <= l->gamma_to) & (*cd > 0.0f);
+    return vluminaire_lookup(l, x, y, vatan2(vsqrt(x * x + y * y), down), inside, cd);
 }
 
 #endif

@@ -247,7 +247,9 @@ static void add_rung(const web_view *v, const home *h, float *out)
     double turn = 0.0, steep = 0.0;
     for (int i = 0; i < v->bands; i++) {
         const band *b = &v->band[i];
-        if (b->to < h->low || b->from > h->high || b->to <= b->from)
+        if (b->from > h->high)
+            break;
+        if (b->to < h->low || b->to <= b->from)
             continue;
         double cot_from = b->from > h->low ? b->cot_from : h->cot_low;
         double cot_to   = b->to < h->high ? b->cot_to : h->cot_high;
@@ -298,9 +300,10 @@ typedef struct vweb_change {
 static vweb_change change_at(const luminaire *l, vfloat gamma, vfloat rho, vmask active)
 {
     vint step = vto_int(vmin(gamma * (float)(HOMES / M_PI), vsplat((float)(HOMES - 1))));
-    vint rung = vto_int(vmin(-vlog2(rho) - 1.0f - 1e-5f, vsplat((float)(RUNGS - 1))));
-    rung      = vselect_int(rung < 0, vsplat_int(0), rung);
-    vint at   = vkeep_int(active, (step * RUNGS + rung) * FIGURES);
+    /* rho = 1/2, 1/4, ... are the ends of rungs; a rounding above counts as below */
+    vfloat halvings = vmin(-vlog2(rho) - (1.0f + 1e-5f), vsplat((float)(RUNGS - 1)));
+    vint rung       = vto_int(vmax(halvings, vsplat(0.0f)));
+    vint at         = vkeep_int(active, (step * RUNGS + rung) * FIGURES);
     return (vweb_change){ vgather(l->error, at), vgather(l->error, at + 1),
                           vgather(l->error, at + 2), vgather(l->error, at + 3) };
 }
@@ -352,28 +355,35 @@ vmask luminaire_as_point(const light *self, const vvec3 *p, vmask active, vlight
                          vfloat *error)
 {
     const luminaire *l = (const luminaire *)self;
-    vmask lit          = luminaire_point(l, p, active, out);
+    vvec3 to           = vsub(vspread(l->position), *p);
+    vfloat dist2       = vdot(to, to);
+    vfloat dist        = vsqrt(dist2);
+    vvec3 wi           = vscale(to, 1.0f / dist);
 
-    vvec3 from   = vsub(*p, vspread(l->position));
-    vfloat dist2 = vdot(from, from);
-    vfloat rho   = l->opening.radius / vsqrt(dist2);
-    vmask far    = active & (rho < 0.5f);
-    vfloat x = vdot(from, vspread(l->c0)), y = vdot(from, vspread(l->c90));
-    vfloat gamma    = vatan2(vsqrt(x * x + y * y), vdot(from, vspread(l->axis)));
+    /* The point */
+    vfloat x     = -vdot(wi, vspread(l->c0));
+    vfloat y     = -vdot(wi, vspread(l->c90));
+    vfloat gamma = vatan2(vsqrt(x * x + y * y), -vdot(wi, vspread(l->axis)));
+    vfloat cd    = { 0 };
+    vmask lit    = vluminaire_lookup(l, x, y, gamma, active & (dist2 > 0.0f), &cd);
+    cd           = vkeep(lit, cd);
+    out->wi      = vkeep3(lit, wi);
+    out->dist    = vkeep(lit, dist);
+    out->e       = vscale(vspread(l->scale), vkeep(lit, cd / dist2));
+    out->pdf     = vkeep(lit, vsplat(INFINITY));
+
+    /* What it is off, also where it is dark itself */
+    vfloat rho      = l->opening.radius / dist;
+    vmask far       = active & (rho < 0.5f);
     vweb_change web = change_at(l, gamma, rho, far);
-    vfloat i        = vrgb_luminance(out->e) * dist2;
-    float scale     = rgb_luminance(l->scale);
-    web = (vweb_change){ web.slope * scale, web.range * scale, web.a * scale, web.b * scale };
-
-    vfloat off = { 0 };
-    if (l->opening.flat)
-        off = flat_error(&l->opening, web, i, dist2, rho);
-    else {
-        vvec3 w = vscale((vvec3){ vdot(from, vspread(l->own[0])), vdot(from, vspread(l->own[1])),
-                                  vdot(from, vspread(l->own[2])) },
-                         1.0f / vsqrt(dist2));
-        off     = solid_error(&l->opening, w, web, i, dist2, rho);
-    }
-    *error = vkeep(active, vselect(far, off, vsplat(INFINITY)));
+    vfloat off =
+        l->opening.flat
+            ? flat_error(&l->opening, web, cd, dist2, rho)
+            : solid_error(&l->opening,
+                          (vvec3){ vdot(wi, vspread(l->own[0])), vdot(wi, vspread(l->own[1])),
+                                   vdot(wi, vspread(l->own[2])) },
+                          web, cd, dist2, rho);
+    off    = vselect(far, off * rgb_luminance(l->scale), vsplat(INFINITY));
+    *error = vkeep(active, off);
     return lit;
 }

@@ -33,7 +33,7 @@ typedef struct opening_type {
     vmask (*meet)(const opening *o, const vvec3 *q, const vvec3 *w, vmask active,
                   vopening_place *out);
 
-    /* m^2, A(w). NULL: what is spread along or across is the same for every w (line, flat). */
+    /* m^2, A(w). NULL: a line. */
     vfloat (*projected)(const opening *o, const vvec3 *w);
 } opening_type;
 
@@ -45,9 +45,9 @@ struct opening {
     float area;               /* m^2, seen along the direction from which most of it is seen, */
     float least_area;         /* m^2, and from which least */
     bool flat;                /* a plane figure, across its own axis z, or a line */
-    float mean1;              /* m, if flat: the mean distance of its places from the centre, */
-    float mean2;              /* m^2, its mean square, */
-    float mean2_along;        /* m^2, and the mean square along the axis where it is greatest */
+    float mean1;       /* m, if flat: at least the mean distance of its places from the centre, */
+    float mean2;       /* m^2, its mean square, */
+    float mean2_along; /* m^2, and the mean square along the axis where it is greatest */
 };
 
 extern const opening_type opening_line, opening_box, opening_cylinder, opening_ellipsoid;
@@ -58,21 +58,24 @@ opening opening_of(const photometry *p);
 /* How a place is drawn: in the share `by_area` of cases even over what is seen along q, by the
  * projected area; else by a direction that is even in a hemisphere which holds all of the opening.
  * The former alone gives weights up to I / least^2, `least` being the distance to the box around
- * the opening, the latter up to 2 pi I / A: where that is less, half of each keeps them below
- * twice the lesser at every place. seen: m^3, |q| times the area seen along q. */
+ * the opening, the latter up to 2 pi I / A, which is large for what is seen edge on. Where the
+ * former is more both are mixed, the more by direction the nearer, but never without places by
+ * area, which keep the edge-on part in check. seen: m^3, |q| times the area seen along q. */
 static inline vfloat vopening_by_area(vvec3 beyond, vvec3 q, vfloat seen)
 {
-    vvec3 least   = { vmax(beyond.x, vsplat(0.0f)), vmax(beyond.y, vsplat(0.0f)),
-                      vmax(beyond.z, vsplat(0.0f)) };
-    vfloat bounds = 6.2831853f * vdot(least, least) * vlength(q);
-    return vselect(bounds < seen, vsplat(0.5f), vsplat(1.0f));
+    vvec3 least  = { vmax(beyond.x, vsplat(0.0f)), vmax(beyond.y, vsplat(0.0f)),
+                     vmax(beyond.z, vsplat(0.0f)) };
+    vfloat ratio = 6.2831853f * vdot(least, least) * vlength(q) / seen;
+    return vselect(ratio < 1.0f, vmax(0.5f * ratio, vsplat(0.125f)), vsplat(1.0f));
 }
 
-/* Which way this (s, t) draws, and s made even again. */
+/* Which way this (s, t) draws, and s made even again, below 1. */
 static inline vmask vopening_pick(vfloat by_area, vfloat *s)
 {
-    vmask area = *s < by_area;
-    *s         = vselect(area, *s / by_area, 2.0f * *s - 1.0f); /* by_area is 1/2 or 1 */
+    vmask area   = *s < by_area;
+    vfloat place = *s / by_area;
+    vfloat ray   = (*s - by_area) / (1.0f - by_area);
+    *s           = vmin(vselect(area, place, ray), vsplat(0x1.fffffep-1f));
     return area;
 }
 

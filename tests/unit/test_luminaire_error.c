@@ -8,12 +8,6 @@
 #include "tests/test.h"
 #include "tests/webs.h"
 
-typedef struct setting {
-    photometry *web;
-    const light *light;
-    bool ellipse;
-} setting;
-
 static const light *make(arena *a, photometry *web, opening_shape shape, vec3 size)
 {
     web->opening           = shape;
@@ -71,8 +65,8 @@ static dvec3 solid_truth(const light *l, vec3 p)
     return d3_scale(sum, 1.0 / COUNT);
 }
 
-/* The largest error / bound over random places from 1.5 to 50 times `size` away; where the bound is
- * below a thousandth of the value at last, along one direction: *reach, in sizes. */
+/* The largest error / bound over random places from 1.5 to 50 times `size` away. slack: of the
+ * value, what the truth is itself off. */
 static double worst_ratio(const light *l, const photometry *w, bool flat, double size, double slack)
 {
     enum { PLACES = 600 };
@@ -166,7 +160,7 @@ static double reach_of(const light *l, double down)
         if (lane(error, 0) < 1e-3f * lane(out.e.y, 0))
             return dist;
     }
-    return INFINITY;
+    return HUGE_VAL;
 }
 
 TEST(a_matt_panel_is_a_point_from_20_m_on)

@@ -145,19 +145,22 @@ static void weigh_all(direct_sensor *w, const vsurface *at, vmask active)
     }
 }
 
-/* Where lamp l may be taken as a point: seen whole, and its bound small against what it, or the
- * mean of its layer's lamps, gives. The bounds of all add up to the share at most. */
-static vmask as_a_point(const direct_sensor *w, int l)
+/* Where lamp l may be taken as a point: nothing hides a part of it, the horizon neither, and its
+ * bound small against what it, or the mean of its layer's lamps, gives. The bounds of all add up to
+ * the share at most. */
+static vmask as_a_point(const direct_sensor *w, int l, const vsurface *at, vmask active)
 {
     const candidate *c = &w->lamps[l];
     int layer          = layer_of(w, l);
     if (!light_has_extent(w->s->lights[l]) || has_closed_form(w, l))
         return ALL_LANES;
-    if (!is_clear(w, l))
+    if (!is_clear(w, l) || quantity_is_round(w->ask.quantity))
         return (vmask){ 0 };
-    vfloat mean  = w->total[layer] / vmax(w->count[layer], vsplat(1.0f));
-    vfloat least = vmax(c->weight, mean);
-    return c->error <= 0.5f * point_share * (float)w->ask.accuracy * least;
+    light_bounds box = light_bounds_of(w->s->lights[l]);
+    vmask whole      = vlight_is_whole(&box, &at->position, &at->normal, active);
+    vfloat mean      = w->total[layer] / vmax(w->count[layer], vsplat(1.0f));
+    vfloat least     = vmax(c->weight, mean);
+    return whole & (c->error <= 0.5f * point_share * (float)w->ask.accuracy * least);
 }
 
 /* ---- rays ------------------------------------------------------------------------------------ */
@@ -340,7 +343,7 @@ vmask direct_sensor_sum(direct_sensor *w, const vsurface *at, vmask active, uint
                 ask_lamp(w, at, l, strong, sums);
             continue;
         }
-        vmask known = active & as_a_point(w, l);
+        vmask known = active & as_a_point(w, l, at, active);
         pending     = pending | (active & ~known & (c->weight > 0.0f));
         add(w, sums, l, vkeep(known, c->e), vkeep(known, c->error));
     }
@@ -364,7 +367,7 @@ void direct_sensor_prepare(direct_sensor *w, const vsurface *at, vmask active)
     for (int l = 0; l < w->s->light_count; l++) {
         if (!light_has_extent(w->s->lights[l]))
             continue;
-        vmask sampled = active & ~as_a_point(w, l) & (w->lamps[l].weight > 0.0f);
+        vmask sampled = active & ~as_a_point(w, l, at, active) & (w->lamps[l].weight > 0.0f);
         for (int bits = vbits(sampled); bits; bits &= bits - 1) {
             int i = __builtin_ctz((unsigned)bits), n = w->listed_count[i]++;
             sum[i] += (double)lane(w->lamps[l].weight, i);

@@ -50,10 +50,11 @@ static void look_around(const scene *s, const light *l, vec3 at, surroundings *o
         world_surface(s->world, &hit, met, &there);
         vrgb albedo = materials_albedo(s->materials, there.material, met);
 
-        /* Irradiance at 1 m is the intensity that way */
-        vvec3 beside  = vadd(vspread(at), ray.direction);
-        vfloat middle = vsplat(0.5f);
-        vmask lit     = light_sample(l, &beside, middle, middle, active, &lamp);
+        /* Irradiance at 1 m from its centre is the intensity that way */
+        vvec3 beside = vadd(vspread(at), ray.direction);
+        vfloat half  = vsplat(0.5f), error;
+        vmask lit    = light_has_extent(l) ? l->type->as_point(l, &beside, active, &lamp, &error)
+                                           : light_sample(l, &beside, half, half, active, &lamp);
         vstore(out->distance + k, hit.distance);
         vstore(out->back + k, vrgb_luminance(albedo));
         vstore(out->strength + k, vkeep(lit, vrgb_luminance(lamp.e)));
@@ -139,7 +140,7 @@ int scene_small_patches(const scene *s, notices *n)
     dvec3 first_at = { 0, 0, 0 };
     for (int i = 0; i < s->light_count; i++) {
         const scene_light *info = &s->light_info[i];
-        if (!isfinite(info->lumens))
+        if (!isfinite(info->lumens) || info->owner) /* its own body is all that it would see */
             continue;
         surroundings around;
         vec3 at = scene_place(s, info->at);

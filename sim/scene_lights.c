@@ -173,17 +173,18 @@ static bool add_luminaire(const luminaire_work *w, luminaire_desc *d, dvec3 at, 
 {
     scene_build *b           = w->b;
     const study_luminaire *l = w->from;
+    double factor            = w->factor * lamp_tilt(w->web, d3_from(d->aim));
     double watts = !isnan(l->watts) ? l->watts : w->web->watts > 0.0 ? w->web->watts : (double)NAN;
     lamp_entry e = { .where    = l->where,
                      .name     = l->name ? l->name : file_name(l->photometry),
                      .at       = at,
                      .emission = &l->emission,
-                     .lumens   = w->factor * w->web->luminaire_lumens,
+                     .lumens   = factor * w->web->luminaire_lumens,
                      .watts    = watts,
                      .web      = w->web,
                      .owner    = owner };
     d->position  = place_of(b, at);
-    d->scale     = lamp_watts(l->emission.color, w->factor * lamp_made_with(b, &l->emission));
+    d->scale     = lamp_watts(l->emission.color, factor * lamp_made_with(b, &l->emission));
     d->web       = w->web;
     warn_if_outside(b, l->where, "luminaire", at);
     return lamp_add(b, light_luminaire(b->a, d, b->err), &e);

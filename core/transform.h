@@ -30,6 +30,14 @@ static inline dvec3 d3_cross(dvec3 a, dvec3 b)
 }
 static inline dvec3 d3_from(vec3 a) { return (dvec3){ (double)a.x, (double)a.y, (double)a.z }; }
 static inline vec3 d3_to_float(dvec3 a) { return (vec3){ (float)a.x, (float)a.y, (float)a.z }; }
+
+/* Each coordinate as a float has it. By way of memory, since gcc 12 at -O2 takes
+ * d3_from(d3_to_float(a)) for a itself. */
+static inline dvec3 d3_rounded(dvec3 a)
+{
+    volatile float x = (float)a.x, y = (float)a.y, z = (float)a.z;
+    return (dvec3){ (double)x, (double)y, (double)z };
+}
 static inline bool d3_finite(dvec3 a) { return isfinite(a.x) && isfinite(a.y) && isfinite(a.z); }
 
 static inline dvec3 transform_vector(const transform *t, dvec3 v)

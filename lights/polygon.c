@@ -370,20 +370,12 @@ static void measure(polygon *g, const dvec3 *at)
     g->deviation = (float)sqrt(mean + half);
 }
 
-/* As a float has it. Volatile, since gcc 12 at -O2 takes a vector's way to float and back for none.
- */
-static double rounded(double a)
-{
-    volatile float f = (float)a;
-    return (double)f;
-}
-
 void polygon_make(polygon *g, const dvec3 *corner, int corners, dvec3 v, dvec3 n)
 {
     dvec3 u = d3_cross(v, n), centre = { 0 }, at[POLYGON_CORNERS];
     for (int i = 0; i < corners; i++) /* of rectangles and triangles, the centroid */
         centre = d3_add(centre, d3_scale(corner[i], 1.0 / corners));
-    centre    = (dvec3){ rounded(centre.x), rounded(centre.y), rounded(centre.z) };
+    centre    = d3_rounded(centre);
     g->centre = d3_to_float(centre);
     for (int i = 0; i < corners; i++) { /* from the centre as rounded: corners stay in place */
         dvec3 off = d3_sub(corner[i], centre);

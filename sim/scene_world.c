@@ -70,7 +70,7 @@ static bool keep_mesh(scene_build *b, mesh *to, dvec3 *moved, const mesh *m, uin
         low     = (dvec3){ fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z) };
         high    = (dvec3){ fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z) };
     }
-    *moved = d3_from(d3_to_float(d3_scale(d3_add(low, high), 0.5)));
+    *moved = d3_rounded(d3_scale(d3_add(low, high), 0.5));
     if (m->position_count == 0)
         *moved = (dvec3){ 0, 0, 0 };
     for (uint32_t v = 0; v < m->position_count; v++)

@@ -103,13 +103,6 @@ dvec3 twin_direction(uint32_t *state)
     return (dvec3){ r * cos(turn), r * sin(turn), z };
 }
 
-/* Volatile, since gcc 12 at -O2 takes a vector's way to float and back for none. */
-dvec3 twin_rounded(dvec3 a)
-{
-    volatile float x = (float)a.x, y = (float)a.y, z = (float)a.z;
-    return (dvec3){ (double)x, (double)y, (double)z };
-}
-
 void twin_place(const flat_twin *f, double near_, double far, uint32_t *state, dvec3 *p, dvec3 *n)
 {
     do {
@@ -117,8 +110,8 @@ void twin_place(const flat_twin *f, double near_, double far, uint32_t *state, d
         dvec3 w  = twin_direction(state);
         if (!f->two_sided && d3_dot(w, twin_normal(f)) < 0.0)
             w = d3_scale(w, -1.0);
-        *p = twin_rounded(d3_add(twin_centre(f), d3_scale(w, d)));
-        *n = twin_rounded(twin_direction(state));
+        *p = d3_rounded(d3_add(twin_centre(f), d3_scale(w, d)));
+        *n = d3_rounded(twin_direction(state));
     } while (twin_irradiance(f, *p, *n) == 0.0);
 }
 
@@ -283,7 +276,7 @@ static dvec3 tilt(const flat_twin *f, dvec3 p, bool cut, uint32_t *state)
     dvec3 n = twin_direction(state), c = unit(d3_sub(twin_centre(f), p));
     if (cut)
         n = unit(d3_sub(n, d3_scale(c, d3_dot(n, c))));
-    return twin_rounded(n);
+    return d3_rounded(n);
 }
 
 void check_as_point(twin_maker make)
@@ -342,8 +335,8 @@ void check_near(const light *l, const flat_twin *f, dvec3 at, dvec3 up, double t
     uint32_t state         = 37;
     for (int i = 0; i < 4; i++)
         for (int k = 0; k < 40; k++) {
-            dvec3 p  = twin_rounded(d3_add(at, d3_scale(up, heights[i])));
-            dvec3 n  = twin_rounded(k ? twin_direction(&state) : d3_scale(up, -1.0));
+            dvec3 p  = d3_rounded(d3_add(at, d3_scale(up, heights[i])));
+            dvec3 n  = d3_rounded(k ? twin_direction(&state) : d3_scale(up, -1.0));
             double e = light_closed_form(l, p, n), s = light_sampled(l, p, n, 1024, (uint32_t)k);
             double want = twin_irradiance(f, p, n);
             assert_true(e >= 0.0 && e <= M_PI && s >= 0.0);

@@ -28,8 +28,6 @@ double twin_facing(const flat_twin *f, dvec3 p);
 double twin_random(uint32_t *state);
 dvec3 twin_direction(uint32_t *state);
 
-dvec3 twin_rounded(dvec3 a); /* as floats have it */
-
 /* A place from which the light is seen, at `near_` to `far` sizes from its centre, and a direction
  * of any kind, not wholly below the horizon of which the light is. */
 void twin_place(const flat_twin *f, double near_, double far, uint32_t *state, dvec3 *p, dvec3 *n);

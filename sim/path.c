@@ -150,11 +150,12 @@ static vfloat first_of(const path_tracer *t, int k)
     return vgather(t->first, vload_int(t->id + k * LANES));
 }
 
-/* p_a^2 / (p_a^2 + p_b^2) */
+/* p_a^2 / (p_a^2 + p_b^2), and 1 where there is no other way, b = 0, even to a direction that is as
+ * good as never drawn. */
 static vfloat power_heuristic(vfloat a, vfloat b)
 {
     vfloat ratio = b / a;
-    return 1.0f / (1.0f + ratio * ratio);
+    return vselect(b > 0.0f, 1.0f / (1.0f + ratio * ratio), vsplat(1.0f));
 }
 
 /* Of the lights that were drawn: how much each counts, where the path might find it too. */

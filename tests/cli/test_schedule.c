@@ -3,7 +3,7 @@
 #include "tests/program.h"
 #include "tests/test.h"
 
-#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* 100 cd all around, 400 pi lm, from a point, by 25 W. */
@@ -12,10 +12,10 @@ static const char lamp[]        = "IESNA:LM-63-2002\n[TEST] 1\n[TESTLAB] x\n[ISS
                                   "1 -1 1 2 1 1 2 0 0 0\n1 1 25\n0 180\n0\n100 100\n";
 static const double lamp_lumens = 400.0 * M_PI, lamp_watts = 25.0;
 
-/* Of a plane of 4 m by 3 m, whose cells are 1 m, and of things that have no load. */
+/* Of a plane of 4 m by 2 m, whose cells are 1 m, and of things that have no load. */
 #define GRIDS                                                                                      \
-    "grids:\n  - {name: work, origin: [0, 0, 0.5], u: [4, 0, 0], v: [0, 3, 0], spacing: 1}\n"      \
-    "  - {name: wall, origin: [4, 0.5, 0.5], u: [-4, 0, 0], v: [0, 0, 1], spacing: 1}\n"             \
+    "grids:\n  - {name: work, origin: [0, 0, 0.5], u: [4, 0, 0], v: [0, 2, 0], spacing: 1}\n"      \
+    "  - {name: wall, origin: [4, 0.5, 0.5], u: [-4, 0, 0], v: [0, 0, 1], spacing: 1}\n"           \
     "  - {name: round, origin: [0, 0, 1], u: [4, 0, 0], v: [0, 3, 0], spacing: 2, "                \
     "quantity: cylindrical}\n"
 #define LAMPS                                                                                      \
@@ -99,6 +99,23 @@ TEST(rows_and_totals_are_those_of_the_study)
     folder_free(folder);
 }
 
+TEST(lm_per_W_is_that_of_lamps_with_watts)
+{
+    char *folder     = folder_of(ROOM "luminaires: [{photometry: bare.ies, at: [1, 1, 2]}, "
+                                          "{photometry: lamp.ies, at: [1, 2, 2]}]\n" GRIDS);
+    program_result r = { 0 };
+    char *bare       = strdup(lamp);
+    memcpy(strstr(bare, "1 1 25"), "1 1 0 ", 6);
+    folder_write(folder, "bare.ies", bare);
+    run_json(folder, &r);
+    assert_text_at(r.out, "schedule.rows.0.watts_each", "null");
+    assert_near(json_number_at(r.out, "schedule.lumens"), 2.0 * lamp_lumens, 1e-6);
+    assert_near(json_number_at(r.out, "schedule.efficacy_lm_w"), lamp_lumens / 25.0, 1e-6);
+    free(bare);
+    program_free(&r);
+    folder_free(folder);
+}
+
 TEST(layers_of_groups_change_nothing)
 {
     char *folder     = folder_of(ROOM LAMPS GRIDS);
@@ -130,12 +147,12 @@ static double work_average(void)
         double x, y, cd;
     } all[]    = { { 1, 1, 50 }, { 3, 2, 50 }, { 2, 1.5, 250 / M_PI }, { 2, 1, 50 / M_PI } };
     double sum = 0.0, h = 1.5;
-    for (int k = 0; k < 12; k++)
+    for (int k = 0; k < 8; k++)
         for (int i = 0; i < 4; i++) {
             double x = k % 4 + 0.5 - all[i].x, y = k / 4 + 0.5 - all[i].y;
             sum += all[i].cd * h / pow(x * x + y * y + h * h, 1.5);
         }
-    return sum / 12.0;
+    return sum / 8.0;
 }
 
 TEST(a_load_is_related_to_the_floor_of_the_room)
@@ -255,6 +272,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rows_and_totals_are_those_of_the_study),
+        cmocka_unit_test(lm_per_W_is_that_of_lamps_with_watts),
         cmocka_unit_test(layers_of_groups_change_nothing),
         cmocka_unit_test(without_being_asked_for_there_is_none),
         cmocka_unit_test(a_load_is_related_to_the_floor_of_the_room),

@@ -73,7 +73,7 @@ static void print_totals(FILE *to, const schedule *c, int width)
         fprintf(to, " %7s %11s %9s %7s %8s", "", "", "", "", "");
         cell(to, 12, 1, c->dimmed_lumens);
         cell(to, 10, 1, c->dimmed_watts);
-        fputs("  watts in proportion to light\n", to);
+        fputs(isnan(c->watts) ? "\n" : "  watts in proportion to light\n", to);
     }
     if (c->unrated)
         fprintf(to, "  %d of %d luminaire%s without watts: left out of all W and all lm/W\n",
@@ -131,6 +131,9 @@ void schedule_print(FILE *to, const scene *s, const schedule *c, const double *a
     for (int i = 0; i < c->row_count; i++)
         print_row(to, &c->rows[i], width);
     print_totals(to, c, width);
+    if (s->emitter_count)
+        fprintf(to, "  glowing surfaces, of no known watts, give another %.1f lm\n",
+                scene_glow_lumens(s));
     if (!isnan(c->watts))
         print_loads(to, s, c, averages);
     fputc('\n', to);

@@ -1,4 +1,4 @@
-/* tests/cli/test_check.c -- lux4 check: what it says of lights, groups and grids. */
+/* tests/cli/test_check.c -- lux4 check: what it says of lights, groups, glow and grids. */
 #include "tests/folder.h"
 #include "tests/program.h"
 #include "tests/test.h"
@@ -59,6 +59,17 @@ TEST(lights_are_listed_with_what_is_not_plain)
     assert_says(&r, "         2          50.0   group wall   dimmed to 0.5\n");
     assert_says(&r, "         1          30.0   group other   colour 4.7 0 0\n");
     assert_says(&r, "         1         314.2   2 triangles\n"); /* 2 pi 50 */
+    program_free(&r);
+    folder_free(folder);
+}
+
+TEST(a_schedule_tells_what_glows_beside_its_rows)
+{
+    char *folder     = folder_of_check();
+    program_result r = { 0 };
+    LUX4(folder, 0, &r, "grid", "study.yaml", "--schedule", "--direct-only", "--accuracy=50%");
+    assert_says(&r, "glowing surfaces, of no known watts, give another 314.2 lm\n");
+    assert_says(&r, "3 of 4 luminaires without watts");
     program_free(&r);
     folder_free(folder);
 }
@@ -136,6 +147,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lights_are_listed_with_what_is_not_plain),
+        cmocka_unit_test(a_schedule_tells_what_glows_beside_its_rows),
         cmocka_unit_test(grids_are_listed_with_how_they_are_laid),
         cmocka_unit_test(groups_add_up_to_all_light),
         cmocka_unit_test(sensors_inside_furniture_are_counted),

@@ -1,7 +1,9 @@
 /* sim/cmd_check.c -- lux4 check: reads a study and all that it names, and simulates nothing. */
 #include "sim/camera.h"
 #include "sim/command.h"
+#include "sim/sensor.h"
 
+#include <limits.h>
 #include <string.h>
 
 static const double mebi = 1024.0 * 1024.0;
@@ -13,7 +15,8 @@ static double bytes_of_pixels(double pixels) { return pixels * 520.0; }
 typedef struct findings {
     world_stats world;
     double largest; /* bytes, of the grid or view that needs most */
-    double lumens;  /* of all lamps that are not far away */
+    double lumens;  /* of all lights that are not far away */
+    int name_width; /* of lights, groups, grids and views */
 } findings;
 
 /* With what the program takes in any case. */
@@ -34,6 +37,27 @@ static const char *direction_of(dvec3 n)
     return "aslant";
 }
 
+static void print_grid(const grid_result *r, int width)
+{
+    const study_grid *g = r->grid;
+    fputs("  grid ", stdout);
+    print_words(stdout, g->name, width, INT_MAX);
+    printf(" %8d sensors", r->sensor_count);
+    if (g->points)
+        printf(", of %s", g->points);
+    else
+        printf(", %d x %d, %.3g x %.3g m apart%s", r->columns, r->rows,
+               d3_length(g->u) / r->columns, d3_length(g->v) / r->rows,
+               g->en12464 ? " (EN 12464-1)" : "");
+    if (g->quantity != QUANTITY_PLANAR)
+        printf(", %s", grid_quantity_name(g->quantity));
+    if (!g->points && !quantity_is_round(g->quantity))
+        printf(", looking %s", direction_of(r->sensors[0].normal));
+    if (r->left_out)
+        printf("; %d more inside furniture left out", r->left_out);
+    putchar('\n');
+}
+
 static bool look_at_grids(const command_context *c, const scene *s, findings *f, bool print,
                           lux_error *err)
 {
@@ -42,14 +66,8 @@ static bool look_at_grids(const command_context *c, const scene *s, findings *f,
         if (!grid_sensors(c->a, s, &s->study->grids[i], &r, err))
             return false;
         f->largest = fmax(f->largest, bytes_of_sensors(r.sensor_count));
-        if (print && s->study->grids[i].points)
-            printf("  grid %-20s %8d sensors, of %s\n", r.grid->name, r.sensor_count,
-                   r.grid->points);
-        else if (print)
-            printf("  grid %-20s %8d sensors, %d x %d, %.3g x %.3g m apart, looking %s\n",
-                   r.grid->name, r.sensor_count, r.columns, r.rows,
-                   d3_length(r.grid->u) / r.columns, d3_length(r.grid->v) / r.rows,
-                   direction_of(r.sensors[0].normal));
+        if (print)
+            print_grid(&r, f->name_width);
     }
     return true;
 }
@@ -62,9 +80,13 @@ static bool look_at_views(const scene *s, findings *f, bool print, lux_error *er
         if (!camera_of_view(s, v, &cam, err))
             return false;
         f->largest = fmax(f->largest, bytes_of_pixels((double)cam.width * cam.height));
-        if (print)
-            printf("  view %-20s %4d x %d pixels%s%s\n", v->name, cam.width, cam.height,
-                   v->camera ? ", camera " : "", v->camera ? v->camera : "");
+        if (!print)
+            continue;
+        fputs("  view ", stdout);
+        print_words(stdout, v->name, f->name_width, INT_MAX);
+        printf(" %4d x %d pixels%s", cam.width, cam.height, v->camera ? ", camera " : "");
+        print_words(stdout, v->camera ? v->camera : "", 0, INT_MAX);
+        putchar('\n');
     }
     return true;
 }
@@ -85,23 +107,97 @@ static void print_materials(const scene *s)
     }
 }
 
-/* A line for lamps that follow one another under one name. */
-static void print_lights(const scene *s)
+/* ---- lights ---------------------------------------------------------------------------------- */
+
+static bool is_same(const scene_light *a, const scene_light *b)
 {
-    if (s->light_count == 0)
+    return !strcmp(a->name, b->name) && a->lumens == b->lumens && a->group == b->group &&
+           a->dimmed_to == b->dimmed_to && a->luminaire == b->luminaire &&
+           a->color.x == b->color.x && a->color.y == b->color.y && a->color.z == b->color.z;
+}
+
+/* What is not plain about a light. */
+static void print_kind(const scene *s, const scene_light *l)
+{
+    vec3 c = l->color;
+    if (s->group_count > 1)
+        printf("   group %s", s->groups[l->group]);
+    if (l->dimmed_to != 1.0)
+        printf("   dimmed to %.4g", l->dimmed_to);
+    if (c.x != 1.0f || c.y != 1.0f || c.z != 1.0f)
+        printf("   colour %.3g %.3g %.3g", (double)c.x, (double)c.y, (double)c.z);
+    if (l->luminaire && l->luminaire->nodes) {
+        fputs("   at nodes ", stdout);
+        print_words(stdout, l->luminaire->nodes, 0, INT_MAX);
+    }
+    putchar('\n');
+}
+
+static void print_line(const char *name, int width, int count, double lumens)
+{
+    fputs("  ", stdout);
+    print_words(stdout, name[0] ? name : "(unnamed)", width, INT_MAX);
+    if (isfinite(lumens))
+        printf(" %7d %13.1f", count, lumens);
+    else
+        printf(" %7d %13s", count, "far away");
+}
+
+/* A line for lamps that follow one another and are the same. */
+static void print_lights(const scene *s, const findings *f)
+{
+    if (s->light_count + s->emitter_count == 0)
         return;
-    printf("lights                               number   lumens each\n");
-    for (int i = 0; i < s->light_count;) {
+    print_words(stdout, "lights", f->name_width + 2, INT_MAX);
+    printf(" %7s %13s\n", "number", "each/lm");
+    for (int i = 0, same; i < s->light_count; i += same) {
         const scene_light *l = &s->light_info[i];
-        int same             = 1;
-        while (i + same < s->light_count && !strcmp(s->light_info[i + same].name, l->name) &&
-               s->light_info[i + same].lumens == l->lumens)
+        for (same = 1; i + same < s->light_count && is_same(l, &s->light_info[i + same]);)
             same++;
-        if (isfinite(l->lumens))
-            printf("  %-34s %6d %13.1f\n", l->name[0] ? l->name : "(unnamed)", same, l->lumens);
-        else
-            printf("  %-34s %6d      far away\n", l->name[0] ? l->name : "(unnamed)", same);
-        i += same;
+        print_line(l->name, f->name_width, same, l->lumens);
+        print_kind(s, l);
+    }
+    if (s->emitter_count) {
+        print_line("glowing surfaces", f->name_width, 1, scene_glow_lumens(s));
+        printf("   %d triangles\n", s->emitter_count);
+    }
+    fputs("  ", stdout);
+    print_words(stdout, "all", f->name_width, INT_MAX);
+    printf(" %7d %13.1f%s\n", s->light_count + (s->emitter_count > 0), f->lumens,
+           s->study->maintenance_given ? "   initial" : "");
+}
+
+/* ---- groups ---------------------------------------------------------------------------------- */
+
+typedef struct group_sum {
+    int lights;
+    double lumens; /* of those that are not far away */
+} group_sum;
+
+static bool sum_groups(arena *a, const scene *s, group_sum **out, lux_error *err)
+{
+    group_sum *sums = *out = arena_array(a, group_sum, (size_t)s->group_count + 1, err);
+    for (int i = 0; sums && i < s->light_count; i++) {
+        const scene_light *l = &s->light_info[i];
+        sums[l->group].lights++;
+        sums[l->group].lumens += isfinite(l->lumens) ? l->lumens : 0.0;
+    }
+    if (sums && s->emitter_count) {
+        sums[s->glow_group].lights++;
+        sums[s->glow_group].lumens += scene_glow_lumens(s);
+    }
+    return sums != NULL;
+}
+
+static void print_groups(const scene *s, const findings *f, const group_sum *sums)
+{
+    if (s->group_count < 2)
+        return;
+    print_words(stdout, "groups", f->name_width + 2, INT_MAX);
+    printf(" %7s %13s\n", "lights", "all/lm");
+    for (int g = 0; g < s->group_count; g++) {
+        print_line(s->groups[g], f->name_width, sums[g].lights, sums[g].lumens);
+        putchar('\n');
     }
 }
 
@@ -121,7 +217,7 @@ static void print_world(const scene *s, const findings *f)
                (double)w->bytes / (double)w->triangles, w->build_seconds);
 }
 
-static void print_json(const scene *s, const findings *f)
+static void print_json(const scene *s, const findings *f, const group_sum *sums)
 {
     fputs("{\"study\":", stdout);
     json_string(stdout, s->study->path);
@@ -131,30 +227,52 @@ static void print_json(const scene *s, const findings *f)
                 f->world.triangles ? (double)f->world.bytes / (double)f->world.triangles : 0.0);
     printf(",\"materials\":%d,\"lights\":%d,\"lumens\":", s->material_count, s->light_count);
     json_number(stdout, f->lumens);
+    printf(",\"glowing_triangles\":%d,\"groups\":[", s->emitter_count);
+    for (int g = 0; g < s->group_count; g++) {
+        fputs(g ? ",{\"name\":" : "{\"name\":", stdout);
+        json_string(stdout, s->groups[g]);
+        printf(",\"lights\":%d,\"lumens\":", sums[g].lights);
+        json_number(stdout, sums[g].lumens);
+        putchar('}');
+    }
+    putchar(']');
     printf(",\"grids\":%d,\"views\":%d,\"memory_bytes\":", s->study->grid_count,
            s->study->view_count);
     json_number(stdout, bytes_to_run(f));
     puts("}");
 }
 
+static int name_width(const scene *s)
+{
+    int width = 0;
+    for (int i = 0; i < s->light_count; i++)
+        width = print_width(s->light_info[i].name, width);
+    for (int i = 0; i < s->group_count; i++)
+        width = print_width(s->groups[i], width);
+    for (int i = 0; i < s->study->grid_count; i++)
+        width = print_width(s->study->grids[i].name, width);
+    for (int i = 0; i < s->study->view_count; i++)
+        width = print_width(s->study->views[i].name, width);
+    return width;
+}
+
 static int check_command(const command_context *c, lux_error *err)
 {
     const scene *s = command_scene(c, err);
-    if (!s)
+    group_sum *sums;
+    if (!s || !sum_groups(c->a, s, &sums, err))
         return exit_code_of(err, true);
-    findings f = { .world = world_statistics(s->world) };
-    for (int i = 0; i < s->light_count; i++)
-        if (isfinite(s->light_info[i].lumens))
-            f.lumens += s->light_info[i].lumens;
+    findings f = { .world = world_statistics(s->world), .name_width = name_width(s) };
+    for (int g = 0; g < s->group_count; g++)
+        f.lumens += sums[g].lumens;
     bool print = !c->line->json;
     if (!look_at_grids(c, s, &f, false, err) || !look_at_views(s, &f, false, err))
         return exit_code_of(err, true); /* before anything is called good */
     if (print) {
         print_world(s, &f);
         print_materials(s);
-        print_lights(s);
-        if (s->light_count)
-            printf("  all %.0f lm%s\n", f.lumens, s->study->maintenance_given ? " initially" : "");
+        print_lights(s, &f);
+        print_groups(s, &f, sums);
         printf("results asked for%s\n",
                s->study->grid_count + s->study->view_count ? "" : ": none");
     }
@@ -163,7 +281,7 @@ static int check_command(const command_context *c, lux_error *err)
     if (print)
         printf("memory     about %.1f MiB to run\n", bytes_to_run(&f) / mebi);
     else
-        print_json(s, &f);
+        print_json(s, &f, sums);
     return EXIT_DONE;
 }
 

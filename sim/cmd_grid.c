@@ -1,7 +1,10 @@
 /* sim/cmd_grid.c -- lux4 grid: how much light arrives on the study's grids. */
 #include "sim/command.h"
+#include "sim/effects.h"
 #include "sim/grid_write.h"
+#include "sim/schedule.h"
 
+#include <limits.h>
 #include <string.h>
 
 static const char *const extensions[] = { ".csv", ".exr" };
@@ -11,26 +14,33 @@ typedef struct totals {
     double seconds;
     int64_t rays;
     bool interval_valid;
+    bool outside;     /* some sensor lies outside of the room */
+    double *averages; /* lx, of each grid; NAN: it did not run */
+    int name_width;   /* of the table */
     int printed;
     int code; /* EXIT_INACCURATE once a grid was */
 } totals;
 
 /* ---- as a table ------------------------------------------------------------------------------ */
 
-static void print_table(const scene *s, const grid_result *r, bool first)
+static void print_table(const scene *s, const grid_result *r, const totals *t)
 {
-    if (first)
-        printf("%-16s %8s %11s %11s %11s %8s %12s %9s\n", "grid", "sensors", "average/lx",
-               "minimum/lx", "maximum/lx", "min/avg", "half-width/%", "time/s");
+    if (t->printed == 0) {
+        print_words(stdout, "grid", t->name_width, INT_MAX);
+        printf(" %8s %11s %11s %11s %8s %12s %9s\n", "sensors", "average/lx", "minimum/lx",
+               "maximum/lx", "min/avg", "half-width/%", "time/s");
+    }
     double worst = 100.0 * r->worst_half_width;
-    printf("%-16s %8d %11.1f %11.1f %11.1f %8.3f %12.2f %9.2f\n", r->grid->name, r->sensor_count,
-           r->average, r->minimum, r->maximum, r->uniformity, worst, r->seconds);
+    print_words(stdout, r->grid->name, t->name_width, INT_MAX);
+    printf(" %8d %11.1f %11.1f %11.1f %8.3f %12.2f %9.2f\n", r->sensor_count, r->average,
+           r->minimum, r->maximum, r->uniformity, worst, r->seconds);
     if (r->grid->quantity != QUANTITY_PLANAR)
         printf("  %s\n", grid_quantity_name(r->grid->quantity));
     double m = s->study->maintenance;
     if (s->study->maintenance_given && m > 0.0 && m != 1.0)
-        printf("  initial        %8s %11.1f %11.1f %11.1f %8s   (above: maintained, factor %g)\n",
-               "", r->average / m, r->minimum / m, r->maximum / m, "", m);
+        printf("  %-*s %8s %11.1f %11.1f %11.1f %8s   (above: maintained, factor %g)\n",
+               t->name_width - 2, "initial", "", r->average / m, r->minimum / m, r->maximum / m, "",
+               m);
 
     grid_requirement asked[MOST_REQUIREMENTS];
     int count = grid_requirements(r, asked);
@@ -97,14 +107,30 @@ static void print_json(const grid_result *r, bool first)
     fputs("]}", stdout);
 }
 
-static void print_json_end(const scene *s, const command_context *c, const totals *t)
+static void print_effects_json(const effects *all)
 {
+    const char *between = "";
+    fputs(",\"effects\":[", stdout);
+    for (int e = 0; e < EFFECTS; e++)
+        if (all->on[e]) {
+            printf("%s\"%s\"", between, effect_name((effect)e));
+            between = ",";
+        }
+    putchar(']');
+}
+
+static void print_json_end(const scene *s, const command_context *c, const schedule *list,
+                           const totals *t)
+{
+    effects all = effects_of_grids(s, c->line->direct_only, t->outside);
     printf("%s]", t->printed ? "" : "{\"grids\":[");
     json_field("seconds", t->seconds);
     json_field("rays", (double)t->rays);
-    bool back = s->reflects && !c->line->direct_only && (s->light_count || s->glows);
-    printf(",\"effects\":[%s%s%s]", s->light_count ? "\"shadows\"" : "",
-           s->light_count && back ? "," : "", back ? "\"interreflection\"" : "");
+    print_effects_json(&all);
+    if (list) {
+        fputs(",\"schedule\":", stdout);
+        schedule_print_json(stdout, s, list, t->averages);
+    }
     printf(",\"interval_valid\":%s}\n", t->interval_valid ? "true" : "false");
 }
 
@@ -137,13 +163,16 @@ static int run_one(const command_context *c, const scene *s, int index, totals *
         if (c->line->json)
             print_json(&r, t->printed == 0);
         else
-            print_table(s, &r, t->printed == 0);
+            print_table(s, &r, t);
         if (s->light_count && r.maximum == 0.0)
             notice_add(c->notices,
                        "grid %s: no light arrives at all: are its sensors, or the lamps, "
                        "outside of the room or inside something solid?",
                        r.grid->name);
         t->printed++;
+        t->averages[index] = r.average;
+        for (int k = 0; k < r.sensor_count; k++)
+            t->outside = t->outside || !scene_is_in_room(s, r.sensors[k].at);
         t->seconds += r.seconds;
         t->rays += r.rays;
         t->interval_valid &= !r.left_to_chance;
@@ -181,6 +210,18 @@ static bool check_grids(const scene *s, const output_place *o, lux_error *err)
     return good;
 }
 
+static bool begin_totals(const command_context *c, const scene *s, totals *t, lux_error *err)
+{
+    int count   = s->study->grid_count;
+    *t          = (totals){ .interval_valid = true };
+    t->averages = arena_array(c->a, double, (size_t)count, err);
+    for (int i = 0; t->averages && i < count; i++) {
+        t->averages[i] = (double)NAN;
+        t->name_width  = print_width(s->study->grids[i].name, t->name_width);
+    }
+    return t->averages != NULL;
+}
+
 static int grid_command(const command_context *c, lux_error *err)
 {
     const scene *s = command_scene(c, err);
@@ -193,11 +234,17 @@ static int grid_command(const command_context *c, lux_error *err)
     if (!check_grids(s, &c->line->place, err))
         return exit_code_of(err, true);
 
-    totals t = { .interval_valid = true };
+    totals t;
+    schedule list;
+    bool listed = c->line->schedule;
+    if (!begin_totals(c, s, &t, err) || (listed && !schedule_make(c->a, s, &list, c->notices, err)))
+        return exit_code_of(err, true);
     int code = run_all(c, s, &t, err);
     if (c->line->json)
-        print_json_end(s, c, &t);
-    else if (t.printed)
+        print_json_end(s, c, listed ? &list : NULL, &t);
+    else if (t.printed && listed)
+        schedule_print(stdout, s, &list, t.averages);
+    if (!c->line->json && t.printed)
         printf("%.2f s, %.1f million rays\n", t.seconds, 1e-6 * (double)t.rays);
     return code;
 }
@@ -208,7 +255,9 @@ const command command_grid = {
     .summary = "illuminance on the study's grids: a summary, and a .csv and .exr for each grid",
     .help = "Illuminance is maintained illuminance where the study has `maintenance`. A sensor is\n"
             "done when half of its 95 % confidence interval is at most the accuracy asked for,\n"
-            "of its value or of a tenth of the grid's average, whichever is more.\n",
+            "of its value or of a tenth of the grid's average, whichever is more.\n"
+            "--schedule lists what is installed, initial and not dimmed, and its load: on the\n"
+            "room's floor, or of a study without `room` on each grid that looks up.\n",
     .options = " -o --overwrite --accuracy --time --variant --threads --seed --direct-only "
                "--groups --schedule --json "
                "--quiet ",

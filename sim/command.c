@@ -54,6 +54,41 @@ int exit_code_of(const lux_error *err, bool reading)
     }
 }
 
+/* Bytes that go on with a character of UTF-8 take no column. */
+static bool begins_character(char c) { return ((unsigned char)c & 0xc0) != 0x80; }
+
+static int characters(const char *text)
+{
+    int count = 0;
+    for (; *text; text++)
+        count += begins_character(*text);
+    return count;
+}
+
+void print_words(FILE *to, const char *text, int width, int most)
+{
+    int all = characters(text), shown = 0;
+    int cut = all > most ? most - 3 : all; /* ... */
+    for (const char *c = text; *c; c++) {
+        shown += begins_character(*c);
+        if (shown <= cut)
+            putc((unsigned char)*c < 0x20 || *c == 0x7f ? '?' : *c, to);
+    }
+    if (all > most)
+        fputs("...", to);
+    for (int i = all > most ? most : all; i < width; i++)
+        putc(' ', to);
+}
+
+int print_width(const char *text, int so_far)
+{
+    enum { LEAST = 16, MOST = 40 };
+    int wanted = characters(text);
+    wanted     = wanted < MOST ? wanted : MOST;
+    wanted     = wanted > LEAST ? wanted : LEAST;
+    return wanted > so_far ? wanted : so_far;
+}
+
 void json_string(FILE *to, const char *text)
 {
     putc('"', to);

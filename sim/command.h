@@ -81,6 +81,13 @@ int command_end(run_end end, const char *what, const char *name, lux_error *err)
  * was being read. */
 int exit_code_of(const lux_error *err, bool reading);
 
+/* A text in a column of that many characters, of which `most` are shown; what could steer a
+ * terminal becomes `?`. */
+void print_words(FILE *to, const char *text, int width, int most);
+
+/* How wide a column of names must be for this one, too: 16 characters at least, and 40 at most. */
+int print_width(const char *text, int so_far);
+
 /* A string as JSON, quotes included. */
 void json_string(FILE *to, const char *text);
 

@@ -9,10 +9,9 @@
 #include <string.h>
 
 enum {
-    ASKED_LAMPS = 16, /* as many are asked one by one */
-    TAIL_RAYS   = 16, /* a sensor and layer, for all weak lamps together */
-    BUCKETS     = 1024,
-    SAMPLE_SET  = 0x1a3b, /* the samples of lamps, beside those of paths */
+    TAIL_RAYS  = 16, /* a sensor and layer, for all weak lamps together */
+    BUCKETS    = 1024,
+    SAMPLE_SET = 0x1a3b, /* the samples of lamps, beside those of paths */
 };
 
 /* Shares of the accuracy asked for: of all weak lamps, and of all lamps taken as points. */

@@ -15,6 +15,9 @@
 #include "sim/scene.h"
 #include "sim/sensor.h"
 
+/* So many lamps are asked one by one, whatever they give. */
+enum { ASKED_LAMPS = 16 };
+
 typedef struct sensor_ask {
     study_quantity quantity;
     double accuracy; /* relative, that is asked for */

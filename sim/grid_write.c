@@ -103,7 +103,7 @@ bool grid_write_exr(const char *path, const scene *s, const grid_result *r, noti
     exr_work w = { .r = r, .err = err };
     bool good  = make_channels(&w, s);
     if (good) {
-        image_attribute attributes[] = {
+        image_attribute attributes[MOST_ATTRIBUTES] = {
             { "whiteLuminance", ATTRIBUTE_FLOAT, NULL, (float)LUMENS_PER_WATT },
             { "lux4:accuracy", ATTRIBUTE_FLOAT, NULL, (float)r->asked },
             { "lux4:accuracyReached", ATTRIBUTE_FLOAT, NULL, (float)r->reached },
@@ -114,16 +114,15 @@ bool grid_write_exr(const char *path, const scene *s, const grid_result *r, noti
             { "lux4:version", ATTRIBUTE_STRING, LUX4_VERSION, 0 },
             { "lux4:interval", ATTRIBUTE_STRING, r->left_to_chance ? r->left_to_chance : "valid",
               0 },
-            { "lux4:partial", ATTRIBUTE_STRING, "interrupted", 0 }, /* the last: left out else */
         };
-        int count = sizeof attributes / sizeof *attributes;
-        image im  = { .width           = r->columns,
-                      .height          = r->rows,
-                      .channel_count   = w.count,
-                      .channels        = w.channels,
-                      .attribute_count = r->end == RUN_INTERRUPTED ? count : count - 1,
-                      .attributes      = attributes };
-        good      = image_write_exr(path, &im, false, n, err);
+        bool partial = r->end == RUN_INTERRUPTED;
+        image im     = { .width           = r->columns,
+                         .height          = r->rows,
+                         .channel_count   = w.count,
+                         .channels        = w.channels,
+                         .attribute_count = output_attributes(attributes, s->study, partial),
+                         .attributes      = attributes };
+        good         = image_write_exr(path, &im, false, n, err);
     }
     arena_clear(&w.a);
     return good;

@@ -41,7 +41,9 @@ static void *give_error(const lux_error *from, lux4_error *to)
 _Static_assert(sizeof((lux4_error *)0)->text == sizeof((lux_error *)0)->text,
                "one line is as long");
 
-lux4 *lux4_open(const char *path, lux4_error *err)
+lux4 *lux4_open(const char *path, lux4_error *err) { return lux4_open_variant(path, NULL, err); }
+
+lux4 *lux4_open_variant(const char *path, const char *variant, lux4_error *err)
 {
     lux_error why = { 0 };
     arena a       = { 0 };
@@ -49,7 +51,7 @@ lux4 *lux4_open(const char *path, lux4_error *err)
     if (l) {
         l->notices.a = &l->a;
         l->a         = a; /* from here on, the arena is the one inside */
-        l->study     = study_read(&l->a, path, NULL, &l->notices, &why);
+        l->study     = study_read(&l->a, path, variant, &l->notices, &why);
         l->scene     = l->study ? scene_new(&l->a, l->study,
                                             &(scene_options){ .threads = parallel_processors() },
                                             &l->notices, &why)
@@ -132,7 +134,9 @@ lux4_grid *lux4_run_grid(lux4 *l, int index, const lux4_options *options, lux4_e
     owned_grid *g = arena_new(&a, owned_grid, &why);
     if (g && grid_run(&a, l->scene, &l->study->grids[index], &o, &r, &why)) {
         g->public = (lux4_grid){ .name             = r.grid->name,
+                                 .quantity         = grid_quantity_name(r.grid->quantity),
                                  .sensor_count     = r.sensor_count,
+                                 .left_out         = r.left_out,
                                  .columns          = r.columns,
                                  .rows             = r.rows,
                                  .illuminance_lx   = r.illuminance,

@@ -45,6 +45,10 @@ typedef struct lux4 lux4;
 
 /* Reads the study at path and all that it names. NULL, with *err. */
 lux4 *lux4_open(const char *path, lux4_error *err);
+
+/* The same with that one of its variants merged over it; NULL: as it is. */
+lux4 *lux4_open_variant(const char *path, const char *variant, lux4_error *err);
+
 void lux4_close(lux4 *study); /* NULL: nothing */
 
 /* What the user should know of the study though nothing failed; index < lux4_warning_count(). */
@@ -73,7 +77,10 @@ typedef struct lux4_options {
 /* Sensors in rows along u, or in the order of their file; arrays of sensor_count numbers. */
 typedef struct lux4_grid {
     const char *name;
+    const char *quantity; /* "illuminance", "cylindrical illuminance", ... */
     int sensor_count, columns, rows;
+    int left_out;                                          /* cells whose sensor would lie inside
+                                                              furniture: columns * rows less those */
     double *x, *y, *z;                                     /* m */
     double *normal_x, *normal_y, *normal_z;                /* unit */
     double *illuminance_lx, *direct_lx, *indirect_lx;      /* maintained */

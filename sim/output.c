@@ -3,7 +3,6 @@
 #include "sim/output.h"
 
 #include "core/file.h"
-#include "core/image.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -15,6 +14,18 @@ const char *output_study_name(const study *s)
 {
     const char *slash = strrchr(s->path, '/');
     return slash ? slash + 1 : s->path;
+}
+
+int output_attributes(image_attribute all[MOST_ATTRIBUTES], const study *s, bool partial)
+{
+    int count = 0;
+    while (count < MOST_ATTRIBUTES - 2 && all[count].name)
+        count++;
+    if (s->variant)
+        all[count++] = (image_attribute){ "lux4:variant", ATTRIBUTE_STRING, s->variant, 0 };
+    if (partial)
+        all[count++] = (image_attribute){ "lux4:partial", ATTRIBUTE_STRING, "interrupted", 0 };
+    return count;
 }
 
 static char *join(arena *a, const char *folder, const char *name, const char *extension,

@@ -9,6 +9,7 @@
 
 #include "core/arena.h"
 #include "core/error.h"
+#include "core/image.h"
 #include "sim/study.h"
 
 typedef struct output_place {
@@ -25,6 +26,11 @@ char *output_path(arena *a, const study *s, const output_place *o, const char *n
  * work, so that no result is computed that has no place. */
 bool output_check(const study *s, const output_place *o, const char *name,
                   const char *const *extensions, int count, lux_error *err);
+
+/* Adds what only some results say, the study's variant and that they are partial, to the
+ * attributes of an EXR: behind those that have a name. How many there are then. */
+enum { MOST_ATTRIBUTES = 16 };
+int output_attributes(image_attribute all[MOST_ATTRIBUTES], const study *s, bool partial);
 
 /* The study's file name without its folders: what an EXR says made it. */
 const char *output_study_name(const study *s);

@@ -33,8 +33,11 @@ typedef struct scene_light {
     vec3 color;            /* luminance 1 */
     int group;             /* in scene.groups */
     float dimming; /* by which its light is still to be multiplied: 1 unless the scene is layered */
-    int owner;     /* of the instances that do not shade it (world_instance.owner); 0: all do */
-    bool clear;    /* nothing stands between it and any place in the room */
+    double dimmed_to;                 /* of its full light, group included */
+    study_where where;                /* its entry of the study; line 0: of a glTF file */
+    const study_luminaire *luminaire; /* that entry, if it is one of `luminaires`; NULL */
+    int owner;  /* of the instances that do not shade it (world_instance.owner); 0: all do */
+    bool clear; /* nothing stands between it and any place in the room */
 } scene_light;
 
 /* Up to so many lamps are all looked at to choose one; more are chosen from by a tree. */
@@ -103,6 +106,9 @@ typedef struct scene_options {
  * looks like a mistake (a luminaire outside the room) is noticed. */
 const scene *scene_new(arena *a, const study *s, const scene_options *o, notices *n,
                        lux_error *err);
+
+/* What glowing surfaces send out from both sides, dimmed, lm. */
+double scene_glow_lumens(const scene *s);
 
 /* Whether lamps that are `clear` are seen from a place of the user's frame, whatever they are. */
 bool scene_is_in_room(const scene *s, dvec3 p);

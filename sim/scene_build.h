@@ -67,6 +67,7 @@ bool build_gltf_lights(scene_build *b); /* scene_lights_gltf.c */
 /* A light to be added, and what is known of it. */
 typedef struct lamp_entry {
     study_where where;
+    const study_luminaire *luminaire; /* NULL */
     const char *name;
     dvec3 at;                       /* m, in the user's frame; of a far one: where it shines to */
     const study_emission *emission; /* colour, dimming, group */

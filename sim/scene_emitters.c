@@ -1,5 +1,6 @@
 /* sim/scene_emitters.c -- the triangles of glowing surfaces as lights, and which triangle is which.
  */
+#include "core/color.h"
 #include "sim/scene_build.h"
 
 static bool glows(const scene_build *b, const mesh *m, uint32_t t)
@@ -71,4 +72,12 @@ bool build_emitters(scene_build *b, const mesh *meshes, const world_instance *in
             return false;
     }
     return true;
+}
+
+double scene_glow_lumens(const scene *s)
+{
+    double watts = 0.0;
+    for (int e = 0; e < s->emitter_count; e++)
+        watts += (double)rgb_luminance(light_flux(s->lights[s->light_count + e]));
+    return LUMENS_PER_WATT * (double)s->glow_dimming * watts;
 }

@@ -63,17 +63,20 @@ bool lamp_add(scene_build *b, const light *l, const lamp_entry *e)
     vec3 first     = ((const scene_light *)b->light_info.items)->color;
     double dimming = dimming_of(b, e->emission);
     *to            = l;
-    *info          = (scene_light){ .name    = e->name,
-                                    .at      = e->at,
-                                    .lumens  = e->far ? HUGE_VAL : dimming * e->lumens,
-                                    .watts   = e->watts,
-                                    .full    = e->far ? HUGE_VAL : e->lumens,
-                                    .web     = e->web,
-                                    .profile = e->profile,
-                                    .color   = color,
-                                    .group   = group,
-                                    .dimming = b->options->layered ? (float)dimming : 1.0f,
-                                    .owner   = e->owner };
+    *info          = (scene_light){ .name      = e->name,
+                                    .at        = e->at,
+                                    .lumens    = e->far ? HUGE_VAL : dimming * e->lumens,
+                                    .watts     = e->watts,
+                                    .full      = e->far ? HUGE_VAL : e->lumens,
+                                    .web       = e->web,
+                                    .profile   = e->profile,
+                                    .color     = color,
+                                    .group     = group,
+                                    .dimming   = b->options->layered ? (float)dimming : 1.0f,
+                                    .dimmed_to = dimming,
+                                    .where     = e->where,
+                                    .luminaire = e->luminaire,
+                                    .owner     = e->owner };
     b->lights_differ |=
         b->lights.count > 1 && (color.x != first.x || color.y != first.y || color.z != first.z);
     return true;
@@ -175,14 +178,15 @@ static bool add_luminaire(const luminaire_work *w, luminaire_desc *d, dvec3 at, 
     const study_luminaire *l = w->from;
     double factor            = w->factor * lamp_tilt(w->web, d3_from(d->aim));
     double watts = !isnan(l->watts) ? l->watts : w->web->watts > 0.0 ? w->web->watts : (double)NAN;
-    lamp_entry e = { .where    = l->where,
-                     .name     = l->name ? l->name : file_name(l->photometry),
-                     .at       = at,
-                     .emission = &l->emission,
-                     .lumens   = factor * w->web->luminaire_lumens,
-                     .watts    = watts,
-                     .web      = w->web,
-                     .owner    = owner };
+    lamp_entry e = { .where     = l->where,
+                     .luminaire = l,
+                     .name      = l->name ? l->name : file_name(l->photometry),
+                     .at        = at,
+                     .emission  = &l->emission,
+                     .lumens    = factor * w->web->luminaire_lumens,
+                     .watts     = watts,
+                     .web       = w->web,
+                     .owner     = owner };
     d->position  = place_of(b, at);
     d->scale     = lamp_watts(l->emission.color, factor * lamp_made_with(b, &l->emission));
     d->web       = w->web;

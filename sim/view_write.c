@@ -50,8 +50,8 @@ bool view_write_exr(const char *path, const scene *s, const view_result *r, bool
 {
     arena scratch = { 0 };
     int channel_count;
-    image_channel *channels      = channels_of(&scratch, s, r, &channel_count, err);
-    image_attribute attributes[] = {
+    image_channel *channels                     = channels_of(&scratch, s, r, &channel_count, err);
+    image_attribute attributes[MOST_ATTRIBUTES] = {
         { "whiteLuminance", ATTRIBUTE_FLOAT, NULL, (float)LUMENS_PER_WATT },
         { "lux4:accuracy", ATTRIBUTE_FLOAT, NULL, (float)r->asked },
         { "lux4:accuracyReached", ATTRIBUTE_FLOAT, NULL, (float)r->reached },
@@ -62,16 +62,15 @@ bool view_write_exr(const char *path, const scene *s, const view_result *r, bool
         { "lux4:version", ATTRIBUTE_STRING, LUX4_VERSION, 0 },
         { "lux4:view", ATTRIBUTE_STRING, r->view->name, 0 },
         { "lux4:interval", ATTRIBUTE_STRING, r->left_to_chance ? r->left_to_chance : "valid", 0 },
-        { "lux4:partial", ATTRIBUTE_STRING, "interrupted", 0 }, /* the last: left out else */
     };
-    int count = sizeof attributes / sizeof *attributes;
-    image im  = { .width           = r->width,
-                  .height          = r->height,
-                  .channel_count   = channel_count,
-                  .channels        = channels,
-                  .attribute_count = r->end == RUN_INTERRUPTED ? count : count - 1,
-                  .attributes      = attributes };
-    bool good = channels && image_write_exr(path, &im, half, n, err);
+    bool partial = r->end == RUN_INTERRUPTED;
+    image im     = { .width           = r->width,
+                     .height          = r->height,
+                     .channel_count   = channel_count,
+                     .channels        = channels,
+                     .attribute_count = output_attributes(attributes, s->study, partial),
+                     .attributes      = attributes };
+    bool good    = channels && image_write_exr(path, &im, half, n, err);
     arena_clear(&scratch);
     return good;
 }

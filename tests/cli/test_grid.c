@@ -1,9 +1,11 @@
 /* tests/cli/test_grid.c -- lux4 grid: its table, its JSON, and the files that it writes. */
+#define _GNU_SOURCE
 #include "core/image.h"
 #include "tests/folder.h"
 #include "tests/program.h"
 #include "tests/test.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -105,6 +107,28 @@ TEST(an_exr_holds_what_the_csv_holds)
     assert_string_equal(attribute_of(&im, "lux4:interval")->text, "valid");
     arena_clear(&a);
     free(c);
+    program_free(&r);
+    folder_free(folder);
+}
+
+TEST(an_exr_names_the_variant_that_it_is_of)
+{
+    char *folder     = folder_of_room(), *text;
+    program_result r = { 0 };
+    arena a          = { 0 };
+    lux_error err    = { 0 };
+    image im;
+    assert_true(asprintf(&text, "%svariants: {old: {maintenance: 0.5}}\n", room) > 0);
+    folder_write(folder, "study.yaml", text);
+    LUX4(folder, 0, &r, "grid", "study.yaml", "--variant", "old");
+    assert_true(image_read_exr(path_in(folder, "out/floor-1.exr"), &a, &im, &err));
+    assert_string_equal(attribute_of(&im, "lux4:variant")->text, "old");
+    LUX4(folder, 0, &r, "grid", "study.yaml");
+    assert_true(image_read_exr(path_in(folder, "out/floor-1.exr"), &a, &im, &err));
+    for (int i = 0; i < im.attribute_count; i++)
+        assert_string_not_equal(im.attributes[i].name, "lux4:variant");
+    free(text);
+    arena_clear(&a);
     program_free(&r);
     folder_free(folder);
 }
@@ -262,6 +286,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_csv_has_a_row_for_each_sensor),
         cmocka_unit_test(an_exr_holds_what_the_csv_holds),
+        cmocka_unit_test(an_exr_names_the_variant_that_it_is_of),
         cmocka_unit_test(the_table_says_what_is_met_and_where_files_lie),
         cmocka_unit_test(json_has_what_the_contract_names),
         cmocka_unit_test(results_of_others_are_not_replaced_unasked),

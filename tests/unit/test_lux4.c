@@ -12,7 +12,10 @@ static const char study_text[] =
     "room: {size: [4, 4, 4], reflectance: 0.5}\n"
     "lights: [{type: point, at: [2, 2, 2], lumens: 10000}, {type: point, at: [9, 2, 2], lumens: "
     "1}]\n"
-    "grids: [{name: floor, origin: [0, 0, 0], u: [4, 0, 0], v: [0, 4, 0], spacing: 1}]\n"
+    "grids:\n"
+    "  - {name: floor, origin: [0, 0, 0], u: [4, 0, 0], v: [0, 4, 0], spacing: 1}\n"
+    "  - {name: heads, on: room, height: 1, spacing: 2, quantity: cylindrical}\n"
+    "variants: {dim: {lights: [{type: point, at: [2, 2, 2], lumens: 1000}]}}\n"
     "views: [{name: wall, eye: [2, 1, 2], target: [2, 4, 2], size: [16, 12]}]\n";
 
 static char path[] = "/tmp/lux4-library-XXXXXX";
@@ -37,12 +40,14 @@ TEST(a_grid_runs_and_says_how_good_it_is)
     lux4_error err = { 0 };
     lux4 *study    = lux4_open(path, &err);
     assert_non_null(study);
-    assert_int_equal(lux4_grid_count(study), 1);
+    assert_int_equal(lux4_grid_count(study), 2);
     assert_string_equal(lux4_grid_name(study, 0), "floor");
 
     lux4_grid *g = lux4_run_grid(study, 0, &(lux4_options){ .accuracy = 0.05, .threads = 2 }, &err);
     assert_non_null(g);
     assert_int_equal(g->sensor_count, 16);
+    assert_int_equal(g->left_out, 0);
+    assert_string_equal(g->quantity, "illuminance");
     double d2 = 4.0 + 0.25 + 0.25, want = 10000.0 / (4.0 * M_PI) * 2.0 / (d2 * sqrt(d2));
     assert_near(g->x[5], 1.5, 1e-12);
     assert_near(g->normal_z[5], 1.0, 0.0);
@@ -52,6 +57,28 @@ TEST(a_grid_runs_and_says_how_good_it_is)
     assert_true(g->half_width_lx[5] > 0.0 && g->half_width_lx[5] <= 0.05 * g->illuminance_lx[5]);
     lux4_grid_free(g);
     lux4_close(study);
+}
+
+/* A tenth of the light, and no lamp outside. */
+TEST(a_variant_is_opened_by_its_name)
+{
+    lux4_error err       = { 0 };
+    lux4_options options = { .direct_only = true };
+    lux4 *study = lux4_open(path, &err), *dim = lux4_open_variant(path, "dim", &err);
+    lux4_grid *g = lux4_run_grid(study, 1, &options, &err);
+    lux4_grid *h = lux4_run_grid(dim, 1, &options, &err);
+    assert_non_null(g);
+    assert_non_null(h);
+    assert_string_equal(h->quantity, "cylindrical illuminance");
+    assert_near(h->average_lx, 0.1 * g->average_lx, 1e-5);
+    assert_int_equal(lux4_warning_count(dim), 0);
+    lux4_grid_free(g);
+    lux4_grid_free(h);
+    lux4_close(study);
+    lux4_close(dim);
+    assert_null(lux4_open_variant(path, "dmi", &err));
+    assert_int_equal(err.code, LUX4_INPUT);
+    assert_non_null(strstr(err.text, "did you mean `dim`?"));
 }
 
 /* L = rho E / pi: a matt wall of 50 %, E of which the view holds too. */
@@ -85,7 +112,7 @@ TEST(errors_are_values)
     assert_int_equal(err.code, LUX4_INPUT);
     assert_non_null(strstr(err.text, "/nonexistent/study.yaml"));
     lux4 *study = lux4_open(path, NULL);
-    assert_null(lux4_run_grid(study, 1, NULL, &err));
+    assert_null(lux4_run_grid(study, 2, NULL, &err));
     assert_null(lux4_run_view(study, -1, NULL, &err));
     lux4_close(study);
     lux4_close(NULL);
@@ -107,6 +134,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_grid_runs_and_says_how_good_it_is),
+        cmocka_unit_test(a_variant_is_opened_by_its_name),
         cmocka_unit_test(a_view_holds_radiance_and_illuminance),
         cmocka_unit_test(warnings_are_told),
         cmocka_unit_test(errors_are_values),

@@ -1,0 +1,26 @@
+/* sim/effects.h -- which effects of light a run simulates, by the names that users know. */
+#ifndef SIM_EFFECTS_H
+#define SIM_EFFECTS_H
+
+#include "sim/scene.h"
+
+typedef enum effect {
+    EFFECT_SHADOWS,
+    EFFECT_AREA_LIGHTS,
+    EFFECT_NEAR_FIELD,
+    EFFECT_MANY_LIGHTS,
+    EFFECT_INTERREFLECTION,
+    EFFECT_COLOR,
+    EFFECTS
+} effect;
+
+typedef struct effects {
+    bool on[EFFECTS];
+} effects;
+
+/* Of a run on grids; `outside`: some sensor is where lamps that are `clear` may be hidden. */
+effects effects_of_grids(const scene *s, bool direct_only, bool outside);
+
+const char *effect_name(effect e); /* "area-lights" */
+
+#endif

@@ -1,0 +1,102 @@
+/* tests/unit/test_effects.c -- which effects are told of, in scenes that have them or have not. */
+#include "sim/effects.h"
+#include "tests/folder.h"
+#include "tests/test.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define ROOM  "lux4: 1\nroom: {size: [4, 3, 2.5], reflectance: 0.5}\n"
+#define DARK  "lux4: 1\nroom: {size: [4, 3, 2.5], reflectance: 0}\n"
+#define POINT "{type: point, at: [2, 1, 2], lumens: 1}"
+#define FOUR  POINT ", " POINT ", " POINT ", " POINT
+
+/* The names of what is on, each with a blank behind it. */
+static void assert_effects(const char *want, bool direct_only, bool outside, const char *text)
+{
+    arena a        = { 0 };
+    char got[200]  = "";
+    const scene *s = scene_of_text(&a, text);
+    effects all    = effects_of_grids(s, direct_only, outside);
+    for (int e = 0; e < EFFECTS; e++)
+        if (all.on[e])
+            strcat(strcat(got, effect_name((effect)e)), " ");
+    assert_string_equal(got, want);
+    arena_clear(&a);
+}
+
+TEST(a_lamp_in_a_bare_room_has_no_shadow)
+{
+    assert_effects("interreflection ", false, false, ROOM "lights: [" POINT "]\n");
+    assert_effects("", true, false, ROOM "lights: [" POINT "]\n");
+    assert_effects("", false, false, DARK "lights: [" POINT "]\n");
+    assert_effects("", false, false, ROOM);
+}
+
+TEST(lamps_or_sensors_outside_are_shadowed)
+{
+    assert_effects("shadows ", true, true, ROOM "lights: [" POINT "]\n");
+    assert_effects("shadows ", true, false,
+                   ROOM "lights: [{type: point, at: [2, 1, 3], lumens: 1}]\n");
+    assert_effects("", true, true, ROOM);
+}
+
+TEST(areas_and_colours_are_told)
+{
+    assert_effects("area-lights ", true, false,
+                   ROOM "lights: [{type: disk, at: [2, 1, 2], radius: 0.1, lumens: 1}]\n");
+    assert_effects("color ", true, false,
+                   ROOM "lights: [" POINT
+                        ", {type: point, at: [2, 1, 2], lumens: 1, color: 3000K}]\n");
+    assert_effects("interreflection color ", false, false,
+                   "lux4: 1\nroom: {size: [4, 3, 2.5], reflectance: {ceiling: 0, walls: 0, floor: "
+                   "[0.2, 0.3, 0.2]}}\n"
+                   "lights: [" POINT "]\n");
+}
+
+/* By a tree more than 12 lamps are chosen from where light comes back; of more than 16 that may be
+ * hidden the strongest are asked. */
+TEST(many_lamps_are_told_where_it_matters)
+{
+    assert_effects("interreflection ", false, false,
+                   ROOM "lights: [" FOUR ", " FOUR ", " FOUR "]\n");
+    assert_effects("many-lights interreflection ", false, false,
+                   ROOM "lights: [" FOUR ", " FOUR ", " FOUR ", " POINT "]\n");
+    assert_effects("", true, false, ROOM "lights: [" FOUR ", " FOUR ", " FOUR ", " POINT "]\n");
+    assert_effects("shadows ", true, true,
+                   ROOM "lights: [" FOUR ", " FOUR ", " FOUR ", " FOUR "]\n");
+    assert_effects("shadows many-lights ", true, true,
+                   ROOM "lights: [" FOUR ", " FOUR ", " FOUR ", " FOUR ", " POINT "]\n");
+}
+
+static void assert_of_luminaire(const char *want, const char *opening)
+{
+    char *folder = folder_new(), text[600];
+    snprintf(text, sizeof text,
+             "IESNA:LM-63-2002\n[TEST] 1\n[TESTLAB] x\n[ISSUEDATE] x\n[MANUFAC] x\nTILT=NONE\n"
+             "1 -1 1 2 1 1 2 %s\n1 1 25\n0 90\n0\n100 100\n",
+             opening);
+    folder_write(folder, "lamp.ies", text);
+    snprintf(text, sizeof text, ROOM "luminaires: [{photometry: %s/lamp.ies, at: [2, 1, 2]}]\n",
+             folder);
+    assert_effects(want, true, false, text);
+    folder_free(folder);
+}
+
+TEST(a_luminaire_with_an_opening_has_a_near_field)
+{
+    assert_of_luminaire("area-lights near-field ", "0.3 0.6 0");
+    assert_of_luminaire("", "0 0 0");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_lamp_in_a_bare_room_has_no_shadow),
+        cmocka_unit_test(lamps_or_sensors_outside_are_shadowed),
+        cmocka_unit_test(areas_and_colours_are_told),
+        cmocka_unit_test(many_lamps_are_told_where_it_matters),
+        cmocka_unit_test(a_luminaire_with_an_opening_has_a_near_field),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

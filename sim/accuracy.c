@@ -228,7 +228,8 @@ static double floor_of(const run_state *s, int channel)
 /* What the accuracy asked for is relative to. */
 static double against_of(const run_state *s, int channel, int item)
 {
-    return fmax(fabs(value_of(s, channel, item)), s->floors[channel]);
+    double floor = s->floors[channel < 2 ? channel : 1];
+    return fmax(fabs(value_of(s, channel, item)), floor);
 }
 
 /* A half width against that. */
@@ -269,22 +270,35 @@ static int compare(const void *a, const void *b)
 }
 
 /* No sample found anything, and they are too few to say that there is nothing: the spread of
- * zeros is 0, and would be taken for certainty. */
+ * zeros is 0, and would be taken for certainty. Where parts are judged they tell, whatever the
+ * first is made of them. */
 static bool is_in_doubt(const run_state *s, int channel, int item)
 {
-    return s->total[at(s, channel, item)] == 0.0 &&
+    return s->total[at(s, channel, item)] == 0.0 && (channel > 0 || s->judged == 1) &&
            s->r->samples[item] < (uint64_t)SCRAMBLES * (uint64_t)s->d->dark_samples;
 }
 
-/* The worst of an item's judged channels. */
+/* The worst of an item's judged channels, against what is asked of each. */
 static double worst_ratio(const run_state *s, int item)
 {
     double worst = 0.0;
     for (int q = 0; q < s->judged; q++) {
         double ratio = is_in_doubt(s, q, item) ? HUGE_VAL : ratio_of(s, q, item);
-        worst        = ratio <= worst ? worst : ratio; /* no number is no certainty */
+        ratio /= q ? PARTS_SHARE : 1.0;
+        worst = ratio <= worst ? worst : ratio; /* no number is no certainty */
     }
     return isnan(worst) ? HUGE_VAL : worst;
+}
+
+/* Whether more samples may make the item good: what is left out of them alone does not spoil it. */
+static bool can_be_good(const run_state *s, int item)
+{
+    bool can = true;
+    for (int q = 0; q < s->judged && s->d->bound; q++) {
+        double share = s->d->accuracy * (q ? PARTS_SHARE : 1.0);
+        can          = can && s->d->bound[at(s, q, item)] <= share * against_of(s, q, item);
+    }
+    return can;
 }
 
 /* Judges all items; leaves those that are to be sampled on in s->active. */
@@ -314,7 +328,7 @@ static bool judge(run_state *s, lux_error *err)
             s->r->complete = false;
         bool missed = n == 0.0 || !(ratios[i] <= s->d->accuracy);
         s->r->missed += missed;
-        if (missed || s->rounds < LEAST_ROUNDS) {
+        if ((missed && can_be_good(s, i)) || s->rounds < LEAST_ROUNDS) {
             double more = fmin(ratios[i] / s->d->accuracy, 1e3);
             s->samples_predicted += fmax(n, n * (more * more - 1.0));
             s->active[s->active_count++] = i;
@@ -376,7 +390,8 @@ static bool run_rounds(run_state *s, lux_error *err)
     every_item(s);
     if (!first_round(s, err))
         return false;
-    while (!s->halt && s->r->end != RUN_DONE && 2 * (s->first + s->n) <= MOST_SAMPLES) {
+    while (!s->halt && s->r->end != RUN_DONE && s->active_count > 0 &&
+           2 * (s->first + s->n) <= MOST_SAMPLES) {
         s->first += s->n;
         s->n = s->first; /* as many again: doubled; from there on, they are a net of their own */
         if (!sample_round(s, err))

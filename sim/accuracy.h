@@ -14,9 +14,13 @@
  *
  *     accuracy * max(|mean|, floor)
  *
- * Several quantities of an unknown may be judged so, each by itself (the layers of groups of
- * lamps): it is done when all of them are. Bounds of what the samples leave out are added to half
- * widths.
+ * Bounds of what the samples leave out are added to half widths.
+ *
+ * Besides the first quantity of an unknown a second may be judged, and parts of that: all light
+ * undimmed, and the layers of its groups. Those are held to PARTS_SHARE of the accuracy, against
+ * max(|mean|, floor of the second): so it is they that ask for most samples, unless the first is
+ * but a small share of the second, and how many samples there are does not depend on how the first
+ * is made of the parts.
  *
  * Who stops at the first small interval stops too early too often, and low: samples that missed
  * what is rare and bright are few, dim and alike. So an unknown is never taken to be much surer
@@ -40,6 +44,7 @@ enum {
     BUNDLE       = 1024,    /* samples that are asked for at once, at most */
     MOST_SAMPLES = 1 << 20, /* a scramble: 16 million an unknown */
 };
+#define PARTS_SHARE 0.8
 
 typedef struct sample_id {
     uint32_t item, scramble, index; /* index of the sample in its scrambled set */

@@ -19,12 +19,14 @@ int64_t direct_rays(const direct_scratch *w) { return w->ray_count; }
 
 static vfloat largest(vvec3 v) { return vmax(vabs(v.x), vmax(vabs(v.y), vabs(v.z))); }
 
-/* Aimed anew from where it starts: near a lamp, the step off the surface is seen. It ends where a
- * surface in which the lamp lies may be rounded to: a few times what a float resolves at the larger
- * of both places. */
+/* Aimed anew from where it starts: near a lamp, the step off the surface is seen. It ends before
+ * the surface in which the lamp may lie. That is rounded to a few times what a float resolves at
+ * the larger of both places, square to it; seen at a grazing angle with cosine c, 1 / c times as
+ * much along the ray. Down to a cosine of 1/32 no light is lost: a tenth of a millimetre in a room
+ * of 10 m. */
 vray direct_shadow_ray(const vsurface *at, const vvec3 *wi, vfloat dist)
 {
-    const float roundings = 8.0f * 0x1p-24f;
+    const float roundings = 8.0f * 32.0f * 0x1p-24f;
     vvec3 start           = vray_start(at, wi);
     vmask far             = dist == INFINITY;
     vvec3 place           = valong(at->position, *wi, dist);

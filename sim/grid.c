@@ -13,9 +13,10 @@
 #include <stdatomic.h>
 #include <string.h>
 
-/* Of accuracy_run(): all that is sampled, of everything and of each layer; what of everything is
- * direct; what sees a reflecting surface; what of each layer is direct. */
-enum { SAMPLED, LAYERS };
+/* Of accuracy_run(): all that is sampled, as dimmed; and in a layered scene the same undimmed, and
+ * of each layer; what of it, as dimmed, is direct; what sees a reflecting surface; what of each
+ * layer is direct. */
+enum { SAMPLED, FULL, LAYERS };
 
 typedef struct thread_scratch {
     direct_sensor *direct;
@@ -38,7 +39,8 @@ typedef struct grid_run_state {
     uint32_t seed;          /* of this grid */
 } grid_run_state;
 
-static int straight_channel(const grid_run_state *g) { return LAYERS + g->layers; }
+static int judged_count(const grid_run_state *g) { return g->layers ? LAYERS + g->layers : 1; }
+static int straight_channel(const grid_run_state *g) { return judged_count(g); }
 static int met_channel(const grid_run_state *g) { return straight_channel(g) + 1; }
 static int layer_straight_channel(const grid_run_state *g, int layer)
 {
@@ -87,12 +89,18 @@ static void sum_packet(grid_run_state *g, thread_scratch *w, int first)
     vmask pending = direct_sensor_sum(w->direct, &at, active, (uint32_t)first, w->sums);
     if (vany(pending))
         atomic_store(&g->lamps_left, true);
-    for (int i = 0; i < count; i++)
-        for (int c = 0; c < LAYERS + g->layers; c++) {
-            size_t to    = (size_t)c * (size_t)n + (size_t)(first + i);
-            g->known[to] = LUMENS_PER_WATT * (double)lane(w->sums[c].e, i);
-            g->bound[to] = LUMENS_PER_WATT * (double)lane(w->sums[c].bound, i);
+    for (int i = 0; i < count; i++) {
+        size_t k    = (size_t)(first + i);
+        g->known[k] = LUMENS_PER_WATT * (double)lane(w->sums[0].e, i);
+        g->bound[k] = LUMENS_PER_WATT * (double)lane(w->sums[0].bound, i);
+        for (int l = 0; l < g->layers; l++) {
+            size_t to = (size_t)(LAYERS + l) * (size_t)n + k, full = (size_t)FULL * (size_t)n + k;
+            g->known[to] = LUMENS_PER_WATT * (double)lane(w->sums[1 + l].e, i);
+            g->bound[to] = LUMENS_PER_WATT * (double)lane(w->sums[1 + l].bound, i);
+            g->known[full] += g->known[to];
+            g->bound[full] += g->bound[to];
         }
+    }
 }
 
 static void sum_chunk(void *context, int item, int thread)
@@ -148,9 +156,14 @@ static void take_sample(const grid_run_state *g, const thread_scratch *w, int i,
     values[SAMPLED * BUNDLE + i]             = straight + lux_of(&b->indirect, i);
     values[straight_channel(g) * BUNDLE + i] = straight;
     values[met_channel(g) * BUNDLE + i]      = b->met[i];
+    if (g->layers)
+        values[FULL * BUNDLE + i] = 0.0f;
     for (int l = 0; l < g->layers; l++) {
         float own = lamp >= 0 && g->s->light_info[lamp].group == l ? lux : 0.0f;
-        values[(LAYERS + l) * BUNDLE + i] = own + lux_of(&b->layers[l], i);
+        float all = own + lux_of(&b->layers[l], i);
+
+        values[(LAYERS + l) * BUNDLE + i] = all;
+        values[FULL * BUNDLE + i] += all;
         values[layer_straight_channel(g, l) * BUNDLE + i] =
             own + lux_of(&b->layers[g->layers + l], i);
     }
@@ -195,7 +208,7 @@ static bool make_threads(grid_run_state *g, arena *a, lux_error *err)
         thread_scratch *w = &g->threads[t];
         w->direct         = direct_sensor_new(a, g->s, &ask, err);
         w->paths          = w->direct ? path_tracer_new(a, g->s, err) : NULL;
-        w->sums = w->paths ? arena_array(a, sensor_sum, (size_t)(LAYERS + g->layers), err) : NULL;
+        w->sums = w->paths ? arena_array(a, sensor_sum, (size_t)(1 + g->layers), err) : NULL;
         if (g->layers)
             w->bundle.layers = arena_array(a, path_sums, 2 * (size_t)g->layers, err);
         if (!w->sums || (g->layers && !w->bundle.layers))
@@ -207,6 +220,7 @@ static bool make_threads(grid_run_state *g, arena *a, lux_error *err)
 static void summarise(grid_result *r)
 {
     double sum = 0.0, halves = 0.0;
+    int over   = 0; /* sensors */
     r->minimum = HUGE_VAL;
     r->maximum = 0.0;
     for (int k = 0; k < r->sensor_count; k++) {
@@ -222,9 +236,13 @@ static void summarise(grid_result *r)
         double against      = fmax(r->illuminance[k], 0.1 * r->average);
         double ratio        = r->half_width[k] > 0.0 ? r->half_width[k] / against : 0.0;
         r->worst_half_width = fmax(r->worst_half_width, ratio);
+        over += ratio > r->asked;
     }
-    if (isnan(r->reached))
-        r->reached = r->worst_half_width;
+    if (!isnan(r->reached))
+        return;
+    r->reached = r->worst_half_width;
+    r->missed  = over;
+    r->end     = over ? RUN_EXHAUSTED : RUN_DONE;
 }
 
 /* At a lamp itself illuminance has no bound. */
@@ -270,7 +288,7 @@ static bool sample_rest(arena *a, grid_run_state *g, grid_result *r, lux_error *
 {
     accuracy_desc d = { .items         = r->sensor_count,
                         .channels      = channel_count(g),
-                        .judged        = LAYERS + g->layers,
+                        .judged        = judged_count(g),
                         .exact         = g->known,
                         .bound         = g->bound,
                         .accuracy      = r->asked,
@@ -332,7 +350,6 @@ static bool run(arena *a, grid_run_state *g, grid_result *out, lux_error *err)
     if (s->glows || reflects || atomic_load(&g->lamps_left))
         return sample_rest(a, g, out, err);
     take_results(g, NULL, out);
-    out->end     = RUN_DONE;
     out->reached = (double)NAN; /* as the bounds say: see summarise() */
     return true;
 }
@@ -351,7 +368,7 @@ bool grid_run(arena *a, const scene *s, const study_grid *grid, const run_option
                          .seed   = seed };
 
     bool good           = grid_sensors(a, s, grid, out, err);
-    size_t n            = (size_t)out->sensor_count * (size_t)(LAYERS + g.layers);
+    size_t n            = (size_t)out->sensor_count * (size_t)judged_count(&g);
     out->asked          = !isnan(o->accuracy)          ? o->accuracy
                           : !isnan(s->study->accuracy) ? s->study->accuracy
                                                        : GRID_DEFAULT_PERCENT / 100.0;

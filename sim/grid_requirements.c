@@ -1,6 +1,34 @@
 /* sim/grid_requirements.c -- what a study requires of a grid against what was got: grid.h. */
 #include "sim/grid.h"
 
+/* Student's distribution of SCRAMBLES - 1 = 15 degrees of freedom: the probability of |t| or less
+ * (Abramowitz and Stegun, 26.7.3, for an odd number of degrees). */
+static double within_t15(double t)
+{
+    double angle = atan(t / sqrt(15.0)), c = cos(angle), term = c, sum = c;
+    for (int k = 3; k < 15; k += 2) {
+        term *= (k - 1.0) / k * c * c;
+        sum += term;
+    }
+    return 2.0 / M_PI * (angle + sin(angle) * sum);
+}
+
+/* By how much wider the intervals of n sensors are that hold all their values at once with 95 %,
+ * than those that hold each (Bonferroni): of the smallest of many it is the unluckiest that counts.
+ */
+static double widening(int n)
+{
+    double each = 1.0 - 0.05 / n, low = 2.0, high = 1e3;
+    for (int step = 0; step < 60; step++) {
+        double t = 0.5 * (low + high);
+        if (within_t15(t) < each)
+            low = t;
+        else
+            high = t;
+    }
+    return high / 2.131450; /* t of 97.5 % */
+}
+
 typedef struct range {
     double got, low, high; /* the truth lies between, as far as half widths tell */
 } range;
@@ -13,20 +41,22 @@ static range average_of(const grid_result *r)
 
 static range minimum_of(const grid_result *r)
 {
-    range m = { r->minimum, HUGE_VAL, HUGE_VAL };
+    range m     = { r->minimum, HUGE_VAL, HUGE_VAL };
+    double wide = widening(r->sensor_count);
     for (int k = 0; k < r->sensor_count; k++) {
-        m.low  = fmin(m.low, r->illuminance[k] - r->half_width[k]);
-        m.high = fmin(m.high, r->illuminance[k] + r->half_width[k]);
+        m.low  = fmin(m.low, r->illuminance[k] - wide * r->half_width[k]);
+        m.high = fmin(m.high, r->illuminance[k] + wide * r->half_width[k]);
     }
     return m;
 }
 
 static range maximum_of(const grid_result *r)
 {
-    range m = { r->maximum, 0.0, 0.0 };
+    range m     = { r->maximum, 0.0, 0.0 };
+    double wide = widening(r->sensor_count);
     for (int k = 0; k < r->sensor_count; k++) {
-        m.low  = fmax(m.low, r->illuminance[k] - r->half_width[k]);
-        m.high = fmax(m.high, r->illuminance[k] + r->half_width[k]);
+        m.low  = fmax(m.low, r->illuminance[k] - wide * r->half_width[k]);
+        m.high = fmax(m.high, r->illuminance[k] + wide * r->half_width[k]);
     }
     return m;
 }

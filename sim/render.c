@@ -12,6 +12,7 @@
 #include "core/sampler.h"
 #include "sim/accuracy.h"
 #include "sim/path.h"
+#include "sim/seen_lamps.h"
 
 #include <string.h>
 
@@ -29,9 +30,10 @@ enum {
     CHANNELS = ALBEDO + 3,
 };
 
-/* In a layered scene the luminances of groups, which are judged as well, stand between the first
- * and the others; behind all stand, for each group, red, green, blue and illuminance. */
-enum { OF_LAYER = 4 };
+/* In a layered scene the luminances of all light undimmed and of groups, which are judged as well,
+ * stand between the first and the others; behind all stand, for each group, red, green, blue and
+ * illuminance. */
+enum { FULL_LUMINANCE = 1, FIRST_LAYER = 2, OF_LAYER = 4 };
 
 enum { PACKETS = BUNDLE / LANES, TILE = 8 /* pixels a side, sampled together */ };
 _Static_assert((int)BUNDLE <= (int)PATHS, "what is asked for at once fits a path bundle");
@@ -43,6 +45,8 @@ typedef struct view_scratch {
     vmask active[PACKETS];
     vhit hits[PACKETS];
     int32_t sample_of[BUNDLE]; /* of each path */
+    int32_t *lamps;            /* that the rays may meet */
+    int before;
     int64_t ray_count;
 } view_scratch;
 
@@ -53,14 +57,20 @@ typedef struct view_run_state {
     view_scratch *threads;
     path_options paths;
     int layers; /* 0 unless the scene is layered */
-    bool shows; /* some lamp can be seen */
+    seen_lamps shown;
     uint32_t seed;
 } view_run_state;
+
+/* How many channels a layered scene has between LUMINANCE and the others. */
+static int before_plain(const view_run_state *v)
+{
+    return v->layers ? FIRST_LAYER - 1 + v->layers : 0;
+}
 
 /* Where the channels above begin: all but LUMINANCE. */
 static float *plain_of(const view_run_state *v, float *values)
 {
-    return values + v->layers * BUNDLE;
+    return values + before_plain(v) * BUNDLE;
 }
 
 /* Red, green, blue and illuminance of a layer. */
@@ -107,6 +117,7 @@ static void trace_camera(view_run_state *v, view_scratch *w, const sample_id *id
         w->active[k] = (vlane_index() + k * LANES) < count;
     }
     world_first_hit(v->s->world, w->rays, w->active, packets, RAYS_COHERENT, w->hits);
+    w->before = lamps_before(v->s, &v->shown, w->rays, w->active, packets, w->lamps);
     w->ray_count += count;
 }
 
@@ -125,23 +136,18 @@ static void add_emitted(const view_run_state *v, float *values, int k, int count
         }
 }
 
-/* Lamps that shine at the eye from before the surface that is seen. */
-static void add_lamps(const view_run_state *v, const view_scratch *w, float *values, int k,
-                      int count)
+/* A lamp that shines at the eye from before the surface that is seen. */
+static void add_lamp(const view_run_state *v, const view_scratch *w, float *values, int k,
+                     int count, int l)
 {
-    const scene *s = v->s;
-    for (int l = 0; l < s->light_count; l++) {
-        const light_type *type = s->lights[l]->type;
-        vlight_hit hit;
-        if (!type->hit)
-            continue;
-        vmask seen =
-            type->hit(s->lights[l], &w->rays[k].origin, &w->rays[k].direction, w->active[k], &hit);
-        seen = seen & (hit.dist < w->hits[k].distance);
-        if (vany(seen))
-            add_emitted(v, values, k, count, vkeep3(seen, hit.radiance), s->light_info[l].group,
-                        s->light_info[l].dimming);
-    }
+    const light *lamp       = v->s->lights[l];
+    const scene_light *info = &v->s->light_info[l];
+    vlight_hit hit;
+    vmask seen =
+        lamp->type->hit(lamp, &w->rays[k].origin, &w->rays[k].direction, w->active[k], &hit);
+    seen = seen & (hit.dist < w->hits[k].distance);
+    if (vany(seen))
+        add_emitted(v, values, k, count, vkeep3(seen, hit.radiance), info->group, info->dimming);
 }
 
 /* What of a surface is seen besides light. */
@@ -190,8 +196,8 @@ static void begin_paths(view_run_state *v, view_scratch *w, const sample_id *ids
         if (v->s->glows)
             add_emitted(v, values, k, count, materials_emission(v->s->materials, at.material, met),
                         v->s->glow_group, v->s->glow_dimming);
-        if (v->shows)
-            add_lamps(v, w, values, k, count);
+        for (int l = 0; l < w->before; l++)
+            add_lamp(v, w, values, k, count, w->lamps[l]);
     }
 }
 
@@ -233,8 +239,14 @@ static void sample_pixels(void *context, int thread, const sample_id *ids, int c
     }
     for (int i = 0; i < count; i++) {
         values[LUMINANCE * BUNDLE + i] = luminance_at(plain + RED * BUNDLE, i);
-        for (int l = 0; l < v->layers; l++)
-            values[(1 + l) * BUNDLE + i] = luminance_at(layer_of(v, values, l), i);
+        float full                     = 0.0f;
+        for (int l = 0; l < v->layers; l++) {
+            float own = luminance_at(layer_of(v, values, l), i);
+            full += own;
+            values[(FIRST_LAYER + l) * BUNDLE + i] = own;
+        }
+        if (v->layers)
+            values[FULL_LUMINANCE * BUNDLE + i] = full;
     }
 }
 
@@ -270,14 +282,16 @@ static void take_layers(const view_run_state *v, const accuracy_result *got, vie
 {
     size_t n           = (size_t)(out->width * out->height);
     double maintenance = v->s->study->maintenance;
-    double seen        = got->mean[(size_t)(SEEN + v->layers) * n + i];
+    double seen        = got->mean[(size_t)(SEEN + before_plain(v)) * n + i];
     for (int l = 0; l < v->layers; l++) {
-        view_layer *layer  = &out->layers[l];
-        const double *mean = got->mean + (size_t)(CHANNELS + v->layers + OF_LAYER * l) * n + i;
+        view_layer *layer = &out->layers[l];
+        const double *mean =
+            got->mean + (size_t)(CHANNELS + before_plain(v) + OF_LAYER * l) * n + i;
         for (size_t c = 0; c < 3; c++)
             layer->radiance[c][to] = (float)(maintenance * mean[c * n]);
         layer->illuminance[to] = seen > 0.0 ? (float)(maintenance * mean[3 * n] / seen) : 0.0f;
-        layer->half_width[to]  = (float)(maintenance * got->half_width[(size_t)(1 + l) * n + i]);
+        layer->half_width[to] =
+            (float)(maintenance * got->half_width[(size_t)(FIRST_LAYER + l) * n + i]);
     }
 }
 
@@ -285,7 +299,7 @@ static void take_pixels(const view_run_state *v, const accuracy_result *got, vie
 {
     int items          = out->width * out->height;
     double maintenance = v->s->study->maintenance;
-    const double *mean = got->mean + (size_t)(v->layers * items); /* as plain_of() */
+    const double *mean = got->mean + (size_t)(before_plain(v) * items); /* as plain_of() */
     double logs = 0.0, bright = 0.0;
     for (int i = 0; i < items; i++) {
         int x, y;
@@ -316,13 +330,15 @@ static void take_pixels(const view_run_state *v, const accuracy_result *got, vie
 
 static bool make_threads(view_run_state *v, arena *a, lux_error *err)
 {
-    v->threads = arena_array(a, view_scratch, (size_t)v->o->threads, err);
+    v->shown   = lamps_that_show(a, v->s, err);
+    v->threads = v->shown.lamps ? arena_array(a, view_scratch, (size_t)v->o->threads, err) : NULL;
     for (int t = 0; v->threads && t < v->o->threads; t++) {
         view_scratch *w = &v->threads[t];
         w->paths        = path_tracer_new(a, v->s, err);
         if (v->layers)
             w->bundle.layers = arena_array(a, path_sums, 2 * (size_t)v->layers, err);
-        if (!w->paths || (v->layers && !w->bundle.layers))
+        w->lamps = arena_array(a, int32_t, (size_t)v->shown.count + 1, err);
+        if (!w->paths || !w->lamps || (v->layers && !w->bundle.layers))
             return false;
     }
     return v->threads != NULL;
@@ -333,8 +349,8 @@ static bool run(arena *a, arena *scratch, view_run_state *v, view_result *out, l
     if (!make_planes(a, out, err) || !make_threads(v, scratch, err))
         return false;
     accuracy_desc d = { .items         = out->width * out->height,
-                        .channels      = CHANNELS + v->layers + OF_LAYER * v->layers,
-                        .judged        = 1 + v->layers,
+                        .channels      = CHANNELS + before_plain(v) + OF_LAYER * v->layers,
+                        .judged        = 1 + before_plain(v),
                         .accuracy      = out->asked,
                         .needed        = 0.98,
                         .floor         = FLOOR_LOG_MEAN,
@@ -365,8 +381,6 @@ bool view_run(arena *a, const scene *s, const study_view *view, const run_option
                          .paths  = { .lamps = true, .bounce = !o->direct_only },
                          .layers = s->layered ? s->group_count : 0,
                          .seed   = seed };
-    for (int l = 0; l < s->light_count; l++)
-        v.shows |= s->lights[l]->type->hit != NULL;
     if (!camera_of_view(s, view, &v.camera, err))
         return false;
     *out = (view_result){ .view        = view,

@@ -106,15 +106,16 @@ static dvec3 box_middle(dvec3 low, dvec3 high)
     return (dvec3){ middle(low.x, high.x), middle(low.y, high.y), middle(low.z, high.z) };
 }
 
-/* Without surfaces, what is near the lamps counts. */
+/* Without surfaces, what is near the first lamp that has a place counts. */
 static dvec3 middle_of_lamps(const study *s)
 {
-    dvec3 at = { 0, 0, 0 };
-    if (s->light_count)
-        at = s->lights[0].at[0];
-    if (s->luminaire_count)
-        at = s->luminaires[0].at[0];
-    return box_middle(at, at);
+    for (int i = 0; i < s->luminaire_count; i++)
+        if (s->luminaires[i].at_count)
+            return box_middle(s->luminaires[i].at[0], s->luminaires[i].at[0]);
+    for (int i = 0; i < s->light_count; i++)
+        if (s->lights[i].at_count)
+            return box_middle(s->lights[i].at[0], s->lights[i].at[0]);
+    return (dvec3){ 0, 0, 0 };
 }
 
 bool build_bounds(scene_build *b)

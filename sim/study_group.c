@@ -8,8 +8,24 @@ static const char *const taken[] = {
     "sun", "sky", "illuminance", "direct", "indirect", "half_width"
 };
 
+/* "desk.direct" would be read as the direct light of `desk` among the channels of an EXR. */
+static bool ends_in_layer_word(const char *name)
+{
+    static const char *const words[] = { ".direct", ".illuminance", ".halfWidth" };
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        size_t length = strlen(name), own = strlen(words[i]);
+        if (length > own && !strcmp(name + length - own, words[i]))
+            return true;
+    }
+    return false;
+}
+
 bool study_read_group(const study_reader *r, const yaml_node_t *value, void *field)
 {
+    if (ends_in_layer_word(study_node_text(value)))
+        return study_node_failed(r, value, ERR_FORMAT,
+                                 "`%s` cannot be a group of lamps: channels of results end so",
+                                 study_node_text(value));
     for (size_t i = 0; i < sizeof taken / sizeof *taken; i++)
         if (!strcmp(study_node_text(value), taken[i]))
             return study_node_failed(r, value, ERR_FORMAT,

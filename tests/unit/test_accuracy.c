@@ -132,6 +132,40 @@ TEST(what_is_left_out_widens_the_interval_by_its_bound)
     arena_clear(&a);
 }
 
+/* Channel 2, a tenth of channel 1, is held to a tenth of the mean of that: a part may be small. */
+static float part_of_a_tenth(sample_id id) { return (float)(17.5 + off(id)); }
+
+TEST(a_small_part_is_judged_by_what_it_is_part_of)
+{
+    arena a              = { 0 };
+    const double exact[] = { 1000.0, 1000.0, 0.0 };
+    fake f               = { .value = part_of_a_tenth, .channels = 3 };
+    accuracy_desc d      = desc_of(&f, 1);
+    d.judged             = 3;
+    d.exact              = exact;
+    d.first_samples      = 8;
+    d.accuracy        = 1.01 * 3.0 * unit_half / 103.5 / PARTS_SHARE; /* floor: (1000 + 35) / 10 */
+    accuracy_result r = run(&a, &d);
+    assert_near(r.half_width[2], 3.0 * unit_half, 1e-4);
+    assert_true(r.end == RUN_DONE && r.missed == 0);
+    arena_clear(&a);
+}
+
+TEST(what_bounds_alone_spoil_is_not_sampled_for_ever)
+{
+    arena a            = { 0 };
+    const double bound = 5.0; /* of 17.5: more than the accuracy allows */
+    fake f             = { .value = by_scramble };
+    accuracy_desc d    = desc_of(&f, 1);
+    d.bound            = &bound;
+    d.accuracy         = 0.2;
+    d.first_samples    = 8;
+    accuracy_result r  = run(&a, &d);
+    assert_true(r.end == RUN_EXHAUSTED && r.missed == 1);
+    assert_int_equal(r.samples[0], 16 * 16);
+    arena_clear(&a);
+}
+
 TEST(several_channels_are_judged_each_by_itself)
 {
     arena a                = { 0 };
@@ -147,9 +181,9 @@ TEST(several_channels_are_judged_each_by_itself)
     const double of_second = 2.0 * unit_half / 35.0; /* channel 1 is twice channel 0 */
     assert_near(r.half_width[0], unit_half, 1e-4);
     assert_near(r.half_width[1], 2.0 * unit_half, 1e-4);
-    assert_true(at_first <= d.accuracy && of_second > d.accuracy);
+    assert_true(at_first <= d.accuracy && of_second > PARTS_SHARE * d.accuracy);
     assert_int_equal(r.missed, 1);
-    assert_near(r.reached, of_second, 1e-4);
+    assert_near(r.reached, of_second / PARTS_SHARE, 1e-4);
     arena_clear(&a);
 }
 
@@ -429,6 +463,8 @@ int main(void)
         cmocka_unit_test(what_is_known_exactly_counts_in_the_accuracy_and_not_in_the_mean),
         cmocka_unit_test(what_is_left_out_widens_the_interval_by_its_bound),
         cmocka_unit_test(several_channels_are_judged_each_by_itself),
+        cmocka_unit_test(a_small_part_is_judged_by_what_it_is_part_of),
+        cmocka_unit_test(what_bounds_alone_spoil_is_not_sampled_for_ever),
         cmocka_unit_test(every_channel_has_its_means),
         cmocka_unit_test(samples_double_until_the_accuracy_is_reached),
         cmocka_unit_test(the_share_needed_may_leave_the_worst_items_behind),

@@ -276,11 +276,11 @@ static bool is_in_doubt(const run_state *s, int channel, int item)
            s->r->samples[item] < (uint64_t)SCRAMBLES * (uint64_t)s->d->dark_samples;
 }
 
-/* The worst of an item's judged channels. */
+/* The worst of an item's channels that are held to the accuracy. */
 static double worst_ratio(const run_state *s, int item)
 {
     double worst = 0.0;
-    for (int q = 0; q < s->judged; q++) {
+    for (int q = s->d->told; q < s->judged; q++) {
         double ratio = is_in_doubt(s, q, item) ? HUGE_VAL : ratio_of(s, q, item);
         worst        = ratio <= worst ? worst : ratio; /* no number is no certainty */
     }

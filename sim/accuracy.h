@@ -53,7 +53,8 @@ typedef enum floor_kind {
 
 typedef struct accuracy_desc {
     int items, channels;
-    int judged;          /* the first so many channels are held to the accuracy; 0: one */
+    int judged;          /* the first so many channels have half widths; 0: one */
+    int told;            /* of them the first so many are not held to the accuracy; 0: all are */
     const double *exact; /* what is known of those besides: judged * items; NULL: 0 */
     const double *bound; /* how far off the rest may be at most, >= 0: judged * items; NULL: 0 */
     double accuracy;     /* > 0, relative */

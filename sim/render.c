@@ -335,6 +335,7 @@ static bool run(arena *a, arena *scratch, view_run_state *v, view_result *out, l
     accuracy_desc d = { .items         = out->width * out->height,
                         .channels      = CHANNELS + v->layers + OF_LAYER * v->layers,
                         .judged        = 1 + v->layers,
+                        .told          = v->layers ? 1 : 0,
                         .accuracy      = out->asked,
                         .needed        = 0.98,
                         .floor         = FLOOR_LOG_MEAN,

@@ -18,8 +18,8 @@
 enum { GROUPS = 3, MOST_ROWS = 64 };
 static const char *const groups[GROUPS] = { "general", "desk", "other" };
 
-/* Float roundings of what a sample adds up: some lamps at each of some ten bounces. */
-static const double rounding = 64 * 0x1p-24;
+/* Relative: float roundings of lamps at some bounces, of their sum, of the mixture. */
+static const double rounding = 8 * 0x1p-24;
 
 /* Lamps of all ways to be taken: as points, by closed forms, by samples. */
 static const char format[] =
@@ -63,7 +63,7 @@ static void run(const char *name, const char *text, bool layered)
     snprintf(file, sizeof file, "%s.yaml", name);
     folder_write(folder, file, text);
     const char *more = layered ? "--groups" : "--quiet";
-    LUX4(folder, 0, &r, "grid", file, "--accuracy", "5%", "-o", name, more);
+    LUX4(folder, 0, &r, "grid", file, "--accuracy", "20%", "-o", name, more);
     LUX4(folder, 0, &r, "render", file, "--accuracy", "40%", "-o", name, more);
     program_free(&r);
 }
@@ -121,25 +121,19 @@ static const float *layer(const image *im, int group, const char *what)
     return channel(im, text_of(&memory, "group.%s.%s", groups[group], what));
 }
 
-static void assert_alike(double got, double want, double scale)
-{
-    assert_near(got, want, rounding * fmax(fabs(want), scale));
-}
-
 /* ---- layers ---------------------------------------------------------------------------------- */
 
 static void assert_sum(const image *im, const char *all, const char *part, const double factors[])
 {
     const float *whole = channel(im, all);
     for (int i = 0; i < im->width * im->height; i++) {
-        double sum = 0.0, parts = 0.0;
+        double sum = 0.0;
         for (int g = 0; g < GROUPS; g++) {
             double l = (double)layer(im, g, part)[i];
             assert_true(l >= 0.0);
             sum += factors[g] * l;
-            parts += l;
         }
-        assert_alike((double)whole[i], sum, parts);
+        assert_near(whole[i], sum, rounding);
     }
 }
 
@@ -156,7 +150,7 @@ TEST(dimmed_layers_add_up_to_the_whole)
     for (int k = 0; k < rows; k++) {
         assert_true(own[0][k] > 0.0 && own[1][k] > 0.0 && own[2][k] > 0.0);
         double sum = factors[0] * own[0][k] + factors[1] * own[1][k] + factors[2] * own[2][k];
-        assert_alike(all[k], sum, 0.0);
+        assert_near(all[k], sum, rounding);
     }
 
     image plane = read_exr(in("sum", "plane.exr"));
@@ -168,10 +162,10 @@ TEST(dimmed_layers_add_up_to_the_whole)
     assert_sum(&view, "B", "B", factors);
     assert_sum(&view, "illuminance.Y", "illuminance.Y", factors);
     for (int g = 0; g < GROUPS;
-         g++) /* as wide as asked for: 5 %, of a tenth of the mean at least */
+         g++) /* as wide as asked for: 20 %, of a tenth of the mean at least */
         for (int i = 0; i < 4 * 3; i++) {
             double half = (double)layer(&plane, g, "halfWidth.Y")[i];
-            assert_true(half >= 0.0 && half <= 0.05 * (double)layer(&plane, g, "Y")[i] + 20.0);
+            assert_true(half >= 0.0 && half <= 0.2 * (double)layer(&plane, g, "Y")[i] + 20.0);
             assert_true((double)layer(&view, g, "halfWidth.Y")[i] >= 0.0);
         }
 }
@@ -196,7 +190,7 @@ static void assert_same_layers(const char *one, const char *other)
     }
 }
 
-/* Mixes NAME/FILE by the factors of words and compares a channel or all of its numbers. */
+/* Mixes the results in FROM by these words: table, grid and view are those in DIMMED. */
 static void assert_mixed(const char *from, const char *dimmed, const char *const words[3])
 {
     program_result r = { 0 };
@@ -206,7 +200,7 @@ static void assert_mixed(const char *from, const char *dimmed, const char *const
     int rows = column(path_in(folder, "mix.csv"), "illuminance_lx", got);
     assert_int_equal(column(in(dimmed, "plane.csv"), "illuminance_lx", want), rows);
     for (int k = 0; k < rows; k++)
-        assert_alike(got[k], want[k], 0.0);
+        assert_near(got[k], want[k], rounding);
 
     static const char *const channels[2][4] = { { "Y" }, { "R", "G", "B", "illuminance.Y" } };
     for (int picture = 0; picture < 2; picture++) {
@@ -218,7 +212,7 @@ static void assert_mixed(const char *from, const char *dimmed, const char *const
             const float *a = channel(&x, channels[picture][c]);
             const float *b = channel(&y, channels[picture][c]);
             for (int i = 0; i < x.width * x.height; i++)
-                assert_alike((double)a[i], (double)b[i], 0.0);
+                assert_near(a[i], b[i], rounding);
         }
     }
     program_free(&r);
@@ -278,7 +272,7 @@ TEST(what_glows_is_of_the_group_other)
     column(in("glow", "g.csv"), "illuminance_lx", all);
     for (int k = 0; k < rows; k++) {
         assert_true(dark[k] > 0.0 && other[k] > 0.0);
-        assert_alike(all[k], 0.5 * other[k], 0.0);
+        assert_near(all[k], 0.5 * other[k], rounding);
     }
     program_free(&r);
 }

@@ -192,14 +192,18 @@ static bool mix_attributes(const mix *m, arena *a, image *out, lux_error *err)
     return true;
 }
 
+/* Over the cells that have a sensor. */
 static double average(const image *im, const char *name)
 {
-    double sum             = 0.0;
-    size_t pixels          = (size_t)im->width * (size_t)im->height;
-    const image_channel *c = channel(im, name);
-    for (size_t i = 0; c && i < pixels; i++)
+    double sum = 0.0, count = 0.0;
+    const image_channel *c = channel(im, name), *out = channel(im, "leftOut.Y");
+    for (size_t i = 0; c && i < (size_t)im->width * (size_t)im->height; i++) {
+        if (out && out->values[i] != 0.0f)
+            continue;
         sum += (double)c->values[i];
-    return c ? sum / (double)pixels : (double)NAN;
+        count += 1.0;
+    }
+    return count > 0.0 ? sum / count : (double)NAN;
 }
 
 bool mix_image(const mix *m, arena *a, image *out, double *average_lx, lux_error *err)

@@ -162,6 +162,15 @@ TEST(sensors_inside_a_cupboard_are_left_out)
     assert_near(json_number_at(r.out, "grids.0.sensors_left_out"), 2.0, 0.0);
     assert_null(json_at(r.out, "grids.1.sensors_left_out"));
 
+    /* A mixture's average is that of the sensors, in the table as in the picture */
+    double average[2];
+    LUX4(folder, 0, &r, "grid", "study.yaml", "--groups", "--overwrite", "--quiet");
+    for (int i = 0; i < 2; i++) {
+        LUX4(folder, 0, &r, "mix", i ? "out/g.exr" : "out/g.csv", "--json");
+        average[i] = json_number_at(r.out, "average_lx");
+    }
+    assert_near(average[1], average[0], 1e-6);
+
     arena a       = { 0 };
     lux_error err = { 0 };
     image im;

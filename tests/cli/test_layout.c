@@ -184,6 +184,44 @@ TEST(what_cannot_be_laid_out_or_aimed_is_refused)
     }
 }
 
+TEST(a_light_that_cannot_be_made_is_told_with_its_line)
+{
+    static const struct {
+        const char *lamp, *says;
+    } cases[] = {
+        { "{type: disk, at: [1, 1, 1], radius: 1e-8, lumens: 1}", "study.yaml:4:4: disk light: " },
+        { "{type: linear, from: [1, 1, 1], to: [1, 1, 1e8], lumens: 1}",
+          "study.yaml:4:4: linear light: " },
+        { "{type: rect, at: [1, 1, 1], size: [1, 1e9], photometry: web.ies}",
+          "study.yaml:4:4: luminaire: a luminous opening" },
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[512];
+        snprintf(text, sizeof text,
+                 "lux4: 1\nroom: {size: [6, 4, 2.8], reflectance: 0.5}\nlights:\n - %s\n",
+                 cases[i].lamp);
+        folder_write(folder, "study.yaml", text);
+        LUX4_FAILS(folder, 2, cases[i].says, "check", "study.yaml", "--quiet");
+    }
+}
+
+TEST(an_opening_that_reaches_through_the_ceiling_is_told)
+{
+    static const char *const heights[] = { "2.74", "2.76" }; /* a ball of 0.1 m below 2.8 m */
+    program_result r                   = { 0 };
+    folder_write(folder, "ball.ies",
+                 "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 -0.1 -0.1 -0.1\n"
+                 "1 1 10\n0 180\n0\n100 100\n");
+    for (int i = 0; i < 2; i++) {
+        char lamp[128];
+        snprintf(lamp, sizeof lamp, "{photometry: ball.ies, at: [3, 2, %s]}", heights[i]);
+        write_study(lamp, "");
+        LUX4(folder, 0, &r, "check", "study.yaml");
+        assert_true(!strstr(r.err, "reaches through a wall, floor or ceiling") == !i);
+    }
+    program_free(&r);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -192,6 +230,8 @@ int main(void)
         cmocka_unit_test(nodes_turn_further_by_rotate),
         cmocka_unit_test(turned_by_a_quarter_c90_is_where_c0_was),
         cmocka_unit_test(what_scales_the_light_multiplies),
+        cmocka_unit_test(a_light_that_cannot_be_made_is_told_with_its_line),
+        cmocka_unit_test(an_opening_that_reaches_through_the_ceiling_is_told),
         cmocka_unit_test(what_cannot_be_laid_out_or_aimed_is_refused),
     };
     return cmocka_run_group_tests(tests, begin, end);

@@ -85,8 +85,11 @@ static view look(const rect_light *l, vvec3 place, vmask active)
     v.r10            = hypot3(v.x1, v.y0, v.h);
     v.r11            = hypot3(v.x1, v.y1, v.h);
     v.angle          = by_triangles(&v, vsplat(g->area));
-    v.lit            = active & (v.h > 0.0f) & (v.angle > 0.0f);
-    vmask wide       = v.lit & (v.angle > WIDE);
+
+    /* All but a half space, and rounded beyond it */
+    v.angle    = vselect(v.angle < -WARP_PI, v.angle + 4.0f * WARP_PI, v.angle);
+    v.lit      = active & (v.h > 0.0f) & (v.angle > 0.0f);
+    vmask wide = v.lit & (v.angle > WIDE);
     if (vany(wide))
         v.angle = vselect(wide, by_corners(&v, v.angle), v.angle);
     return v;

@@ -284,6 +284,15 @@ static void take_results(const grid_run_state *g, const accuracy_result *got, gr
     }
 }
 
+/* Lamps may all be out: then darkness is no doubt. */
+static bool anything_shines(const scene *s)
+{
+    bool shines = s->glows && s->glow_dimming > 0.0f;
+    for (int l = 0; l < s->light_count && !shines; l++)
+        shines = s->light_info[l].lumens > 0.0;
+    return shines;
+}
+
 static bool sample_rest(arena *a, grid_run_state *g, grid_result *r, lux_error *err)
 {
     accuracy_desc d = { .items         = r->sensor_count,
@@ -309,7 +318,7 @@ static bool sample_rest(arena *a, grid_run_state *g, grid_result *r, lux_error *
                       r->grid->name);
     take_results(g, &got, r);
     r->missed = got.missed;
-    if (r->in_doubt && !r->left_to_chance && !g->o->direct_only)
+    if (r->in_doubt && !r->left_to_chance && !g->o->direct_only && anything_shines(g->s))
         r->left_to_chance = "some sensors see surfaces from where no sample found any light back";
     r->end     = got.end;
     r->reached = got.reached;

@@ -205,7 +205,7 @@ static double average(const image *im, const char *name)
         sum += (double)c->values[i];
         count += 1.0;
     }
-    return c ? sum / count : (double)NAN;
+    return count > 0.0 ? sum / count : (double)NAN;
 }
 
 bool mix_image(const mix *m, arena *a, image *out, double *average_lx, lux_error *err)

@@ -114,6 +114,38 @@ static bool makes_small_spot(const scene *s, const light *l, vec3 at, double rea
     return back > 0.0f && flux / peak * d * d < 2.0 * M_PI * reach * reach;
 }
 
+static bool is_in_room(dvec3 size, dvec3 low, dvec3 high, double off)
+{
+    return low.x >= -off && high.x <= size.x + off && low.y >= -off && high.y <= size.y + off &&
+           low.z >= -off && high.z <= size.z + off;
+}
+
+/* Whether some of a light that is in a plain room reaches out of it. */
+static bool reaches_out(const scene *s, int l)
+{
+    const double off = 1e-3; /* m: no model is truer */
+    dvec3 size = s->study->room.size, at = s->light_info[l].at;
+    light_bounds b = light_bounds_of(s->lights[l]);
+    return s->study->room.given && light_has_extent(s->lights[l]) && is_in_room(size, at, at, 0) &&
+           !is_in_room(size, d3_add(d3_from(b.low), s->centre), d3_add(d3_from(b.high), s->centre),
+                       off);
+}
+
+static void tell_reaching_out(const scene *s, notices *n)
+{
+    int count = 0, first = 0;
+    for (int l = s->light_count - 1; l >= 0; l--)
+        if (reaches_out(s, l))
+            count++, first = l;
+    const scene_light *info = &s->light_info[first];
+    if (count)
+        notice_add(n,
+                   "%s: %d light%s, first `%s` at (%g, %g, %g) m, reach%s through a wall, floor or "
+                   "ceiling: what shines from behind it is lost",
+                   s->study->path, count, count > 1 ? "s" : "", info->name, info->at.x, info->at.y,
+                   info->at.z, count > 1 ? "" : "es");
+}
+
 /* A plain room is closed: light that meets nothing has left it, from a lamp in its very walls. */
 static void tell_lost_light(const scene *s, const scene_light *info, const surroundings *around,
                             notices *n)
@@ -124,9 +156,7 @@ static void tell_lost_light(const scene *s, const scene_light *info, const surro
         lost += around->distance[i] < INFINITY ? 0.0 : (double)around->strength[i];
     }
     dvec3 size = s->study->room.size, at = info->at;
-    bool inside = at.x >= 0.0 && at.x <= size.x && at.y >= 0.0 && at.y <= size.y && at.z >= 0.0 &&
-                  at.z <= size.z;
-    if (s->study->room.given && inside && lost > flux_share * all)
+    if (s->study->room.given && is_in_room(size, at, at, 0.0) && lost > flux_share * all)
         notice_add(
             n,
             "%s: about %.0f %% of the light of `%s` at (%g, %g, %g) m leaves the room: it lies in "
@@ -153,6 +183,7 @@ int scene_small_patches(const scene *s, notices *n)
         if (count++ == 0)
             first_at = info->at;
     }
+    tell_reaching_out(s, n);
     if (count)
         notice_add(
             n,

@@ -51,9 +51,22 @@ static int group_of(scene_build *b, const char *name)
     return (int)b->groups.count - 1;
 }
 
+/* Makers of lights know no file: theirs begin with "KIND light: " or "luminaire: ". */
+static bool pass_on(scene_build *b, study_where where)
+{
+    lux_error why     = *b->err;
+    const char *colon = strchr(why.text, ':');
+    bool of_light     = colon && colon - why.text > 6 && !strncmp(colon - 6, " light", 6);
+    if (of_light || !strncmp(why.text, "luminaire: ", 11))
+        study_failed(b->study, where, b->err, why.code, "%s", why.text);
+    return false;
+}
+
 bool lamp_add(scene_build *b, const light *l, const lamp_entry *e)
 {
-    const light **to  = l ? list_new(&b->lights, b->a, const light *, b->err) : NULL;
+    if (!l)
+        return pass_on(b, e->where);
+    const light **to  = list_new(&b->lights, b->a, const light *, b->err);
     scene_light *info = to ? list_new(&b->light_info, b->a, scene_light, b->err) : NULL;
     int group =
         info ? group_of(b, e->emission->group ? e->emission->group : STUDY_GROUP_OTHER) : -1;

@@ -110,7 +110,7 @@ static const light *make(gltf_work *w)
 
 static dvec3 unit(dvec3 v) { return d3_scale(v, 1.0 / d3_length(v)); }
 
-static bool add(scene_build *b, const gltf_light *l, const transform *copy, double scale)
+static bool add(scene_build *b, const study_scene *s, const gltf_light *l, const transform *copy)
 {
     transform to      = transform_product(copy, &l->place);
     dvec3 at          = transform_point(&to, (dvec3){ 0, 0, 0 });
@@ -126,10 +126,11 @@ static bool add(scene_build *b, const gltf_light *l, const transform *copy, doub
                           .x        = unit(transform_vector(&to, (dvec3){ 1, 0, 0 })),
                           .y        = unit(transform_vector(&to, (dvec3){ 0, 1, 0 })),
                           .strength = rgb_luminance(l->color) > 0.0f ? given : 0.0,
-                          .scale    = scale };
+                          .scale    = s->scale };
     const light *made = make(&w);
     bool far          = l->kind == GLTF_DIRECTIONAL;
-    lamp_entry e      = { .name     = l->name,
+    lamp_entry e      = { .where    = s->where,
+                          .name     = l->name,
                           .at       = far ? along : at,
                           .emission = &w.emission,
                           .lumens   = w.lumens,
@@ -147,7 +148,7 @@ bool build_gltf_lights(scene_build *b)
         for (uint32_t k = 0; s->lights && k < b->files[i]->light_count; k++)
             for (int c = 0; c < s->at_count; c++) {
                 transform copy = scene_copy_place(s, c);
-                if (!add(b, &b->files[i]->lights[k], &copy, s->scale))
+                if (!add(b, s, &b->files[i]->lights[k], &copy))
                     return false;
             }
     }

@@ -120,6 +120,31 @@ TEST(close_by_nothing_exceeds_pi_l)
 }
 
 /* Far, near, above an edge, grazing, a tenth of a millimetre above, and beside a corner. */
+/* Where the solid angle rounds to more than 2 pi a sensor was in the dark: 0.1 um below the middle.
+ */
+TEST(just_below_its_middle_it_fills_half_of_all_there_is)
+{
+    arena a     = { 0 };
+    rect_desc d = { .centre   = { -1, -0.5f, 1.15f },
+                    .aim      = { 0, 0, -1 },
+                    .up       = { 0, 1, 0 },
+                    .width    = 1,
+                    .height   = 1,
+                    .radiance = { 1, 1, 1 } };
+    for (int square = 0; square < 2; square++, d.height = 0.3f) {
+        const light *l = light_rect(&a, &d, NULL);
+        for (float h = 2e-7f; h < 1e-3f; h *= 1.5f) {
+            vvec3 p      = vspread((vec3){ -1, -0.5f, 1.15f - h });
+            vfloat third = vsplat(1.0f / 3.0f);
+            vlight_sample s;
+            assert_true(vbits(light_sample(l, &p, third, third, ALL_LANES, &s)) ==
+                        vbits(ALL_LANES));
+            assert_near(lane(s.e.x, 0), 2.0 * M_PI, 0.01); /* 4 h / side, and 1 mm */
+        }
+    }
+    arena_clear(&a);
+}
+
 TEST(samples_follow_their_pdf)
 {
     const vec3 places[] = { { 0, 0, 1000 },        { 3, 1, 40 },          { 0.3f, -0.2f, 1 },
@@ -202,6 +227,7 @@ int main(void)
         cmocka_unit_test(as_a_point_it_is_off_by_no_more_than_the_bound),
         cmocka_unit_test(weights_are_positive_wherever_it_is_seen),
         cmocka_unit_test(close_by_nothing_exceeds_pi_l),
+        cmocka_unit_test(just_below_its_middle_it_fills_half_of_all_there_is),
         cmocka_unit_test(samples_follow_their_pdf),
         cmocka_unit_test(dead_and_dark_lanes_are_zero),
         cmocka_unit_test(flux_peak_and_bounds_are_those_of_a_matt_rectangle),

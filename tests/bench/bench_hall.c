@@ -9,6 +9,7 @@
  * data/office is.
  */
 #include "core/progress.h"
+#include "tests/block.h"
 #include "tests/folder.h"
 #include "tests/gltf_text.h"
 
@@ -40,36 +41,6 @@ static double seconds(void)
 
 /* ---- the hall -------------------------------------------------------------------------------- */
 
-/* A shelf of 1.2 x 40 x 2 m along y, in the axes of glTF: y up, z to the south. */
-static const char *write_shelf(arena *a)
-{
-    static const float position[8][3] = { { -0.6f, 0, 0 },   { 0.6f, 0, 0 },   { -0.6f, 2, 0 },
-                                          { 0.6f, 2, 0 },    { -0.6f, 0, -40 }, { 0.6f, 0, -40 },
-                                          { -0.6f, 2, -40 }, { 0.6f, 2, -40 } };
-    static const uint16_t corner[36]  = { 0, 1, 3, 0, 3, 2, 5, 4, 6, 5, 6, 7, 4, 0, 2, 4, 2, 6,
-                                          1, 5, 7, 1, 7, 3, 2, 3, 7, 2, 7, 6, 4, 5, 1, 4, 1, 0 };
-    char bytes[sizeof position + sizeof corner];
-    memcpy(bytes, position, sizeof position);
-    memcpy(bytes + sizeof position, corner, sizeof corner);
-    const char *text = text_of(
-        a,
-        "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],"
-        "\"nodes\":[{\"mesh\":0}],"
-        "\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.4,0.4,0.4,1],"
-        "\"metallicFactor\":0}}],"
-        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1,"
-        "\"material\":0}]}],"
-        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":8,\"type\":\"VEC3\","
-        "\"min\":[-0.6,0,-40],\"max\":[0.6,2,0]},"
-        "{\"bufferView\":1,\"componentType\":5123,\"count\":36,\"type\":\"SCALAR\"}],"
-        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":%zu},"
-        "{\"buffer\":0,\"byteOffset\":%zu,\"byteLength\":%zu}],"
-        "\"buffers\":[{\"byteLength\":%zu,\"uri\":\"%s\"}]}",
-        sizeof position, sizeof position, sizeof corner, sizeof bytes,
-        data_uri(a, bytes, sizeof bytes));
-    return scratch_write("shelf.gltf", text, strlen(text));
-}
-
 typedef struct yaml {
     char text[65536];
     size_t size;
@@ -94,13 +65,14 @@ static const char *hall_text(arena *a, int which, const int count[2])
     put(y, "lux4: 1\nroom: {size: [40, 60, 8], "
            "reflectance: {ceiling: 0.7, walls: 0.5, floor: 0.2}}\n");
     if (cases[which].shelves) {
-        put(y, "scene:\n  - file: %s\n    at: [", write_shelf(a));
+        put(y, "scene:\n  - file: %s\n    at: [",
+            block_write(a, "shelf.gltf", (vec3){ 1.2f, 40.0f, 2.0f }));
         for (int i = 0; i < 9; i++)
-            put(y, "%s[%d, 10, 0]", i ? ", " : "", 4 * (i + 1));
+            put(y, "%s[%d, 30, 0]", i ? ", " : "", 4 * (i + 1));
         put(y, "]\n");
     }
     if (cases[which].points) {
-        put(y, "lights:\n  - type: point\n    lumens: %g\n    at:\n", all / lamps);
+        put(y, "lights:\n  - type: cosine\n    lumens: %g\n    at:\n", all / lamps);
         for (int i = 0; i < lamps; i++)
             put(y, "    - [%g, %g, 7.5]\n", 40.0 * (i % count[0] + 0.5) / count[0],
                 60.0 * (i / count[0] + 0.5) / count[1]);

@@ -27,13 +27,23 @@ static void weigh_sampled(direct_sensor *w, const vsurface *at, vmask active)
     }
 }
 
+/* A sensor that takes many samples comes again and again. */
+static bool is_prepared(const direct_sensor *w, const vsurface *at, vmask active)
+{
+    const vvec3 *p = &w->at.position, *n = &w->at.normal;
+    vmask same = (at->position.x == p->x) & (at->position.y == p->y) & (at->position.z == p->z) &
+                 (at->normal.x == n->x) & (at->normal.y == n->y) & (at->normal.z == n->z);
+    return vbits(active) == vbits(w->prepared) && !vany(active & ~same);
+}
+
 void direct_sensor_prepare(direct_sensor *w, const vsurface *at, vmask active)
 {
+    if (!w->s->extended || is_prepared(w, at, active))
+        return;
     double sum[LANES] = { 0 };
     memset(w->listed_count, 0, sizeof w->listed_count);
-    w->at = *at;
-    if (!w->s->extended)
-        return;
+    w->at       = *at;
+    w->prepared = active;
     weigh_sampled(w, at, active);
     for (int l = 0; l < w->s->light_count; l++) {
         vfloat share = w->lamps[l].weight / w->sampled[direct_layer(w, l)];

@@ -39,6 +39,7 @@ struct direct_sensor {
     int32_t *listed[LANES], listed_count[LANES];
     float *running[LANES];
     vsurface at;
+    vmask prepared; /* the lanes that this is true of */
 
     vray rays[DIRECT_PACKETS];
     vmask asked[DIRECT_PACKETS], blocked[DIRECT_PACKETS];

@@ -27,7 +27,7 @@ static const struct {
 } cases[CASES] = {
     { "luminaires, bare room", false, false, false },
     { "luminaires, shelves", true, false, false },
-    { "points, shelves", true, true, false },
+    { "cosines, shelves", true, true, false },
     { "the same, direct light", true, true, true },
 };
 static const int counts[COUNTS][2] = { { 2, 5 }, { 25, 40 } };

@@ -75,7 +75,7 @@ MAKEFLAGS += --no-builtin-rules --no-print-directory
 Q         := $(if $V,,@)
 .DELETE_ON_ERROR:
 .SECONDARY:
-.PHONY: all check check-long tests demo bench bench-lights bench-programs bench-deps deps fuzz fuzzers install layers \
+.PHONY: all check check-long tests demo bench bench-lights bench-hall bench-programs bench-deps deps fuzz fuzzers install layers \
         format format-check clean help FORCE
 
 ## all: the library and the program (what plain `make` does)
@@ -184,6 +184,12 @@ bench-lights:
 	$Q$(MAKE) build/$(KIND)-1/tests/bench/bench_lights WIDTH=1
 	@{ echo "# $$(git describe --always --dirty 2>/dev/null) $(CC) $(OPT)"; \
 	  build/$(KIND)-4/tests/bench/bench_lights build/$(KIND)-1/tests/bench/bench_lights; } | tee -a build/bench.log
+
+## bench-hall: seconds that 1,000 lamps in a hall cost, beside 10; appended to build/bench.log
+bench-hall:
+	$Q$(MAKE) build/$(KIND)-4/tests/bench/bench_hall WIDTH=4
+	@{ echo "# $$(git describe --always --dirty 2>/dev/null) $(CC) $(OPT)"; \
+	  build/$(KIND)-4/tests/bench/bench_hall; } | tee -a build/bench.log
 
 ## bench-deps: install what the benchmarks alone are measured against
 bench-deps:

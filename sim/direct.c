@@ -115,14 +115,25 @@ vfloat direct_weight(const light *l, const vvec3 *p, const vvec3 *n, vmask activ
     return vkeep(lit & (cosine > 0.0f), vrgb_luminance(lamp.e) * cosine);
 }
 
-/* Which lamp of a set of few each lane draws, -1 for none, and with what probability. */
-static vint choose_of_few(const scene *s, const light_set *set, const vsurface *at, vmask active,
-                          vfloat pick, vfloat *chance)
+vvec3 direct_facing(const light *l, const vsurface *at)
 {
+    light_bounds b = light_bounds_of(l);
+    vvec3 middle   = vscale(vadd(vspread(b.low), vspread(b.high)), vsplat(0.5f));
+    vvec3 to       = b.far ? vneg(vspread(b.axis)) : vsub(middle, at->position);
+    vfloat length  = vlength(to);
+    return vselect3(length > 0.0f, vscale(to, 1.0f / length), at->normal);
+}
+
+/* Which lamp of a set of few each lane draws, -1 for none, and with what probability. */
+static vint choose_of_few(const scene *s, const light_set *set, const direct_batch *b, int k,
+                          vmask active, vfloat pick, vfloat *chance)
+{
+    const vsurface *at = &b->at[k];
     vfloat weight[FEW_LAMPS], total = { 0 };
     for (int i = 0; i < set->lamps; i++) {
         const light *l = s->lights[set->lights[i]];
-        weight[i]      = direct_weight(l, &at->position, &at->normal, active);
+        vvec3 n        = b->all_around ? direct_facing(l, at) : at->normal;
+        weight[i]      = direct_weight(l, &at->position, &n, active);
         total          = total + weight[i];
     }
 
@@ -149,7 +160,7 @@ static vint choose_of_set(const scene *s, const light_set *set, const direct_bat
                           vmask active, vfloat pick, vfloat *chance)
 {
     if (!set->tree)
-        return choose_of_few(s, set, &b->at[k], active, pick, chance);
+        return choose_of_few(s, set, b, k, active, pick, chance);
     vlight_choice drawn;
     vvec3 n   = horizon_of(&b->at[k], b->all_around);
     vmask any = vlight_tree_choose(set->tree, &b->at[k].position, &n, pick, active, &drawn);

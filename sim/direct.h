@@ -51,6 +51,10 @@ vfloat direct_glow_pdf(const scene *s, const vsurface *at, const vvec3 *wi, vint
  * above 0 wherever it may give light. */
 vfloat direct_weight(const light *l, const vvec3 *p, const vvec3 *n, vmask active);
 
+/* The normal of a surface that faces the light's middle: by it a light is weighed where light from
+ * all around counts. */
+vvec3 direct_facing(const light *l, const vsurface *at);
+
 /* A ray from the point to just before the place that was drawn. */
 vray direct_shadow_ray(const vsurface *at, const vvec3 *wi, vfloat dist);
 

@@ -38,17 +38,20 @@ vray direct_shadow_ray(const vsurface *at, const vvec3 *wi, vfloat dist)
                    .reach     = vselect(far, dist, length - before) };
 }
 
-/* How far a shadow ray may go that is not to meet the glowing surface in which its end lies. Places
- * as drawn and as traced are off its plane by some roundings of the coordinates; along the ray by
- * more, the flatter it comes in: by that over the cosine to the normal, the axis of its bounds. */
-static vfloat before_surface(const light *l, const vsurface *at, const vlight_sample *to)
+/* The points that the glowing surface l shines on from the place that was drawn, and how far shadow
+ * rays may go that are not to meet it. Places as drawn and as traced are off its plane by some
+ * roundings of the coordinates; along the ray by more, the flatter it comes in: by that over the
+ * cosine to the normal, the axis of its bounds. A point so close to the plane lies in it, and gets
+ * nothing, where by a rounding it might be lit by what it lies in. */
+static vmask glow_reaches(const light *l, const vsurface *at, const vlight_sample *to, vfloat *dist)
 {
     const float roundings = 16.0f * 0x1p-24f;
     light_bounds box      = light_bounds_of(l);
     vfloat corners        = vmax(largest(vspread(box.low)), largest(vspread(box.high)));
     vfloat off            = roundings * vmax(corners, largest(at->position));
     vfloat cosine         = vabs(vdot(to->wi, vspread(box.axis)));
-    return to->dist - vmin(off / vmax(cosine, vsplat(FLT_MIN)), 0.5f * to->dist);
+    *dist                 = to->dist - vmin(off / vmax(cosine, vsplat(FLT_MIN)), 0.5f * to->dist);
+    return cosine * to->dist > off;
 }
 
 static void trace_shadows(const scene *s, direct_scratch *w, int packets, ray_hint hint)
@@ -77,13 +80,14 @@ static void take(const scene *s, direct_scratch *w, const direct_batch *b, int k
     vmask lit = light_sample(s->lights[l], &at->position, b->u[k].x, b->u[k].y, lanes, &lamp);
     if (!b->all_around)
         lit = lit & (vdot(lamp.wi, at->normal) > 0.0f);
-    bool glows  = l >= s->light_count;
-    vfloat dist = glows ? before_surface(s->lights[l], at, &lamp) : lamp.dist;
-    vray ray    = direct_shadow_ray(at, &lamp.wi, dist);
-    out->wi     = vselect3(lit, lamp.wi, out->wi);
-    out->e      = vselect3(lit, vscale(lamp.e, 1.0f / chance), out->e);
-    out->pdf    = vselect(lit, lamp.pdf * chance, out->pdf);
-    out->light  = vselect_int(lit, vsplat_int(l), out->light);
+    vfloat dist = lamp.dist;
+    if (l >= s->light_count)
+        lit = lit & glow_reaches(s->lights[l], at, &lamp, &dist);
+    vray ray   = direct_shadow_ray(at, &lamp.wi, dist);
+    out->wi    = vselect3(lit, lamp.wi, out->wi);
+    out->e     = vselect3(lit, vscale(lamp.e, 1.0f / chance), out->e);
+    out->pdf   = vselect(lit, lamp.pdf * chance, out->pdf);
+    out->light = vselect_int(lit, vsplat_int(l), out->light);
 
     w->rays[k].origin    = vselect3(lit, ray.origin, w->rays[k].origin);
     w->rays[k].direction = vselect3(lit, ray.direction, w->rays[k].direction);

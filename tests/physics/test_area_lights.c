@@ -43,6 +43,22 @@ static void check_both(const char *what, const char *lamp, const lab_probe *p, i
     }
 }
 
+/* I cos gamma in rings of 0.5 deg, with an opening of this size (width, length, height). */
+static void write_matt_web(lab *l, const char *name, const char *size, double intensity)
+{
+    enum { RINGS = 361 };
+    char angles[RINGS * 8], candelas[RINGS * 14];
+    size_t a = 0, c = 0;
+    for (int i = 0; i < RINGS; i++) {
+        double cosine = i < 180 ? cos(i * M_PI / 360.0) : 0.0;
+        char end      = i % 10 == 9 ? '\n' : ' ';
+        a += (size_t)snprintf(angles + a, sizeof angles - a, "%g%c", 0.5 * i, end);
+        c += (size_t)snprintf(candelas + c, sizeof candelas - c, "%.7g%c", intensity * cosine, end);
+    }
+    lab_write(l, name, "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 %d 1 1 2 %s\n1 1 0\n%s\n0\n%s\n", RINGS,
+              size, angles, candelas);
+}
+
 /* ---- a rectangle ----------------------------------------------------------------------------- */
 
 /* E of 1 cd/m^2 at a corner's foot: parallel, a x b at c; and at right angles, a wide, b high. */
@@ -156,6 +172,43 @@ TEST(a_line_gives_its_closed_form)
                want, 5e-5);
 }
 
+/* ---- luminaires ------------------------------------------------------------------------------ */
+
+/* A web of I cos gamma makes a flat opening of the area A shine evenly, L = I / A: a rectangle of
+ * 1.2 x 0.6 m, near, where it is no point, and far, where it may be taken as one. The web is linear
+ * between rings 0.5 deg apart: 1e-5. */
+TEST(a_matt_luminaire_gives_what_lambert_says)
+{
+    enum { N = 7 };
+    static const dvec3 corner[4] = {
+        { -0.6, -0.3, 0 }, { 0.6, -0.3, 0 }, { 0.6, 0.3, 0 }, { -0.6, 0.3, 0 }
+    };
+    const lab_probe p[N] = {
+        { { 0, 0, -0.1 }, { 0, 0, 1 } },    { { 0.5, 0.2, -0.3 }, { 0, 0, 1 } },
+        { { 1, 1, -1 }, { 0, 0, 1 } },      { { -0.5, 1, -0.5 }, unit(0, -1, 1) },
+        { { 3, 2, -20 }, { 0, 0, 1 } },     { { 0, 0, -60 }, unit(1, 1, 2) },
+        { { 0.3, 0, -2 }, unit(1, 0, 0.1) }
+    };
+    double want[N];
+    for (int i = 0; i < N; i++)
+        want[i] = 720.0 / 0.72 * polygon_lux(corner, 4, p[i].at, p[i].normal);
+    for (int shaded = 0; shaded < 2; shaded++)
+        for (int i = 0; i < N; i++) { /* each alone: the accuracy asked for is that of each */
+            lab l;
+            lab_open(&l);
+            lab_speck(&l, "speck.gltf");
+            write_matt_web(&l, "matt.ies", "0.6 1.2 0", 720.0);
+            grid_result r;
+            lab_measure(
+                &l,
+                shaded ? "scene: speck.gltf\nluminaires: [{photometry: matt.ies, at: [0, 0, 0]}]"
+                       : "luminaires: [{photometry: matt.ies, at: [0, 0, 0]}]",
+                NULL, &p[i], 1, &(run_options){ .accuracy = asked }, &r);
+            lab_check("matt luminaire", &r, &want[i], 3e-5, asked);
+            lab_close(&l);
+        }
+}
+
 /* ---- half hidden ----------------------------------------------------------------------------- */
 
 /* E on the horizontal at the origin, of what of the disk (1 cd/m^2, radius a, centre (cx, 0, h))
@@ -214,7 +267,7 @@ TEST(a_rectangle_behind_an_edge_gives_what_is_left)
     lab_probe p[N];
     double want[N];
     for (int i = 0; i < N; i++) {
-        double x = 0.15 * (i - 3) - 0.05, edge = fmin(fmax(-x, -0.6), 0.6);
+        double x = 0.13 * (i - 3) - 0.05, edge = fmin(fmax(-x, -0.6), 0.6);
         p[i]         = (lab_probe){ { x, 0.3, 0 }, i % 2 ? up : unit(0.3, 0.5, 1) };
         dvec3 left[] = { { -0.6, -0.3, 2 }, { edge, -0.3, 2 }, { edge, 0.3, 2 }, { -0.6, 0.3, 2 } };
         want[i]      = 5000.0 * polygon_lux(left, 4, p[i].at, p[i].normal);
@@ -295,6 +348,7 @@ int main(void)
         cmocka_unit_test(a_rectangle_at_right_angles_gives_its_closed_form),
         cmocka_unit_test(a_disk_gives_its_closed_form),
         cmocka_unit_test(a_line_gives_its_closed_form),
+        cmocka_unit_test(a_matt_luminaire_gives_what_lambert_says),
         cmocka_unit_test(a_disk_behind_an_edge_gives_its_segment),
         cmocka_unit_test(a_rectangle_behind_an_edge_gives_what_is_left),
         cmocka_unit_test(a_line_behind_an_edge_gives_what_is_left),

@@ -172,6 +172,71 @@ TEST(a_line_gives_its_closed_form)
                want, 5e-5);
 }
 
+/* ---- close by, and in a beam ----------------------------------------------------------------- */
+
+/* pi L is reached, and never exceeded. Within a millimetre of the edge, half of it. */
+TEST(close_to_a_light_there_is_pi_l_and_no_more)
+{
+    static const double height[] = { 1, 1e-3, 1e-6 };
+    lab_probe p[6];
+    double want_disk[6], want_rect[6];
+    const dvec3 corner[4] = { { -2, -1, 0 }, { 2, -1, 0 }, { 2, 1, 0 }, { -2, 1, 0 } };
+    for (int i = 0; i < 6; i++) {
+        double h     = height[i % 3];
+        p[i]         = (lab_probe){ { i < 3 ? 0.5 : 0.0, i < 3 ? 0.0 : -1.0, -h }, up };
+        want_disk[i] = 100.0 * disk_up(1, h, i < 3 ? 0.5 : 1.0);
+        want_rect[i] = 100.0 * polygon_lux(corner, 4, p[i].at, up);
+    }
+    assert_near(want_disk[2], 100.0 * M_PI, 1e-5);
+    assert_near(want_rect[5], 50.0 * M_PI, 1e-5);
+    for (int shaded = 0; shaded < 2; shaded++)
+        for (int rect = 0; rect < 2; rect++) {
+            char text[512];
+            lab l;
+            lab_open(&l);
+            lab_speck(&l, "speck.gltf");
+            snprintf(text, sizeof text, "%slights: [{%s, at: [0, 0, 0], luminance: 100}]",
+                     shaded ? "scene: speck.gltf\n" : "",
+                     rect ? "type: rect, size: [4, 2]" : "type: disk, radius: 1");
+            grid_result r;
+            lab_measure(&l, text, NULL, p, 6, &(run_options){ .accuracy = asked }, &r);
+            lab_check(text, &r, rect ? want_rect : want_disk, 1e-4, asked);
+            for (int i = 0; i < 6; i++)
+                if (!(r.illuminance[i] <= 100.0 * M_PI * (1.0 + 1e-5) + 2.0 * r.half_width[i]))
+                    fail_msg("%s, sensor %d: %.9g lx +- %g", text, i, r.illuminance[i],
+                             r.half_width[i]);
+            lab_close(&l);
+        }
+}
+
+/* E cos i within the beam, from its beginning on; nothing beside, behind and in shadow. */
+TEST(a_beam_lights_what_is_in_it)
+{
+    const dvec3 along = unit(1, 0, -1), a = { 1, 0, 2 };
+    const lab_probe p[] = {
+        { d3_add(a, d3_scale(along, 1.0)), up },
+        { d3_add(a, d3_scale(along, 1.0)), d3_scale(along, -1.0) },
+        { d3_add(d3_add(a, d3_scale(along, 1.0)), (dvec3){ 0, 0.09, 0 }), up },
+        { d3_add(d3_add(a, d3_scale(along, 1.0)), (dvec3){ 0, 0.11, 0 }), up },
+        { d3_add(a, d3_scale(along, -0.1)), up },
+        { d3_add(a, d3_scale(along, 3.5)), up },
+    };
+    const double want[] = { 5000.0 * sqrt(0.5), 5000, 5000.0 * sqrt(0.5), 0, 0, 0 };
+    lab l;
+    lab_open(&l);
+    quad screen = { { { 0, -3, 0 }, { 5, -3, 0 }, { 5, 3, 0 }, { 0, 3, 0 } } };
+    lab_quads(&l, "screen.gltf", &screen, 1, "\"name\":\"Black\"");
+    grid_result r;
+    lab_measure(&l,
+                "scene: screen.gltf\nmaterials: [{match: '*', reflectance: 0}]\n"
+                "lights: [{type: parallel, at: [1, 0, 2], aim: [1, 0, -1], radius: 0.1, "
+                "illuminance: 5000}]",
+                NULL, p, 6, &(run_options){ 0 }, &r);
+    for (int i = 0; i < 6; i++)
+        assert_near(r.illuminance[i], want[i], 1e-5);
+    lab_close(&l);
+}
+
 /* ---- luminaires ------------------------------------------------------------------------------ */
 
 /* A web of I cos gamma makes a flat opening of the area A shine evenly, L = I / A: a rectangle of
@@ -348,6 +413,8 @@ int main(void)
         cmocka_unit_test(a_rectangle_at_right_angles_gives_its_closed_form),
         cmocka_unit_test(a_disk_gives_its_closed_form),
         cmocka_unit_test(a_line_gives_its_closed_form),
+        cmocka_unit_test(close_to_a_light_there_is_pi_l_and_no_more),
+        cmocka_unit_test(a_beam_lights_what_is_in_it),
         cmocka_unit_test(a_matt_luminaire_gives_what_lambert_says),
         cmocka_unit_test(a_disk_behind_an_edge_gives_its_segment),
         cmocka_unit_test(a_rectangle_behind_an_edge_gives_what_is_left),

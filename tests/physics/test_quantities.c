@@ -106,6 +106,13 @@ TEST(a_large_rectangle_gives_what_quadrature_does)
         lab_measure(&l, "lights: [{type: rect, at: [0, 0, 3], size: [2, 2], luminance: 800}]",
                     quantity[q], p, PLACES, &(run_options){ .accuracy = 0.01 }, &r);
         lab_check(quantity[q], &r, want, 1e-3, 0.01); /* quadrature: kinks at facing . w = 0 */
+
+        /* The same square as a surface that glows */
+        const quad q2 = { { { -1, -1, 3 }, { 1, -1, 3 }, { 1, 1, 3 }, { -1, 1, 3 } } };
+        lab_quads(&l, "glow.gltf", &q2, 1, lab_glow(&l, 800.0));
+        lab_measure(&l, "scene: glow.gltf", quantity[q], p, PLACES,
+                    &(run_options){ .accuracy = 0.01 }, &r);
+        lab_check(quantity[q], &r, want, 1e-3, 0.01);
         lab_close(&l);
     }
 }

@@ -377,9 +377,10 @@ TEST(close_before_a_glowing_wall_of_a_room_seeds_agree)
 
 /* A ceiling with a square of 0.4 m in it that glows, in a room of one reflectance: the mean over
  * all surfaces is pi L A / (S (1 - rho)), by the balance of energy, wherever the square is. */
-TEST(a_small_glowing_square_balances_in_a_room)
+static void square_balances(const char *lamps, double more)
 {
-    const double w = 0.7, e = 1.1, s = 1.3, n = 1.7, rho = 0.5, lumens = M_PI * 20000.0 * 0.16;
+    const double w = 0.7, e = 1.1, s = 1.3, n = 1.7, rho = 0.5,
+                 lumens = M_PI * 20000.0 * 0.16 + more;
     lab l;
     lab_open(&l);
     quad side[9], glow = { { { w, s, 2 }, { e, s, 2 }, { e, n, 2 }, { w, n, 2 } } };
@@ -391,14 +392,17 @@ TEST(a_small_glowing_square_balances_in_a_room)
     lab_quads(&l, "walls.gltf", side, 9, "\"name\":\"Wall\"");
     lab_quads(&l, "glow.gltf", &glow, 1, lab_glow(&l, 20000.0));
     const scene *made = lab_scene(
-        &l, "lux4: 1\nscene: [walls.gltf, glow.gltf]\n"
-            "materials: [{match: '*', reflectance: 0.5}]\ngrids:\n"
-            "  - {name: floor, origin: [0, 0, 0], u: [3, 0, 0], v: [0, 2, 0], spacing: 0.2}\n"
-            "  - {name: top, origin: [0, 0, 2], u: [0, 2, 0], v: [3, 0, 0], spacing: 0.2}\n"
-            "  - {name: south, origin: [0, 0, 0], u: [0, 0, 2], v: [3, 0, 0], spacing: 0.2}\n"
-            "  - {name: north, origin: [0, 2, 0], u: [3, 0, 0], v: [0, 0, 2], spacing: 0.2}\n"
-            "  - {name: west, origin: [0, 0, 0], u: [0, 2, 0], v: [0, 0, 2], spacing: 0.2}\n"
-            "  - {name: east, origin: [3, 0, 0], u: [0, 0, 2], v: [0, 2, 0], spacing: 0.2}\n");
+        &l,
+        text_of(&l.a,
+                "lux4: 1\n%s\nscene: [walls.gltf, glow.gltf]\n"
+                "materials: [{match: '*', reflectance: 0.5}]\ngrids:\n"
+                "  - {name: floor, origin: [0, 0, 0], u: [3, 0, 0], v: [0, 2, 0], spacing: 0.2}\n"
+                "  - {name: top, origin: [0, 0, 2], u: [0, 2, 0], v: [3, 0, 0], spacing: 0.2}\n"
+                "  - {name: south, origin: [0, 0, 0], u: [0, 0, 2], v: [3, 0, 0], spacing: 0.2}\n"
+                "  - {name: north, origin: [0, 2, 0], u: [3, 0, 0], v: [0, 0, 2], spacing: 0.2}\n"
+                "  - {name: west, origin: [0, 0, 0], u: [0, 2, 0], v: [0, 0, 2], spacing: 0.2}\n"
+                "  - {name: east, origin: [3, 0, 0], u: [0, 0, 2], v: [0, 2, 0], spacing: 0.2}\n",
+                lamps));
     double flux = 0.0, half = 0.0;
     for (int g = 0; g < 6; g++) {
         grid_result r;
@@ -413,6 +417,16 @@ TEST(a_small_glowing_square_balances_in_a_room)
     if (!(fabs(flux - want) <= 1e-3 * want + 2.0 * half))
         fail_msg("%.6g lm, not %.6g, +- %.2g", flux, want, half);
     lab_close(&l);
+}
+
+TEST(a_small_glowing_square_balances_in_a_room) { square_balances("", 0.0); }
+
+/* Of all of them bounces choose. */
+TEST(a_small_glowing_square_balances_beside_lamps)
+{
+    square_balances("lights: [{type: point, at: [1.2, 0.8, 1.1], lumens: 4000},"
+                    " {type: rect, at: [2, 1.2, 1.5], size: [0.6, 0.3], lumens: 6000}]",
+                    10000.0);
 }
 
 /* One layer a group, undimmed, each with its own closed form. */
@@ -472,6 +486,7 @@ int main(void)
         cmocka_unit_test(in_a_room_that_gives_light_back_seeds_agree),
         cmocka_unit_test(close_before_a_glowing_wall_of_a_room_seeds_agree),
         cmocka_unit_test(a_small_glowing_square_balances_in_a_room),
+        cmocka_unit_test(a_small_glowing_square_balances_beside_lamps),
         cmocka_unit_test(layers_hold_each_group_undimmed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

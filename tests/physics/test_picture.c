@@ -70,7 +70,7 @@ TEST(a_floor_in_the_light_of_lamps_shows_its_luminance)
     lab_close(&l);
 }
 
-/* The same by a small glowing quad. */
+/* A small glowing quad beside a point */
 TEST(a_floor_in_the_light_of_a_glowing_quad_shows_its_luminance)
 {
     lab l;
@@ -78,13 +78,16 @@ TEST(a_floor_in_the_light_of_a_glowing_quad_shows_its_luminance)
     const quad glow = { { { 1.4, 0.9, 2 }, { 1.4, 1.1, 2 }, { 1.6, 1.1, 2 }, { 1.6, 0.9, 2 } } };
     double lux[WIDE * HIGH];
     lab_quads(&l, "glow.gltf", &glow, 1, lab_glow(&l, 20000.0));
-    for (int i = 0; i < WIDE * HIGH; i++)
-        lux[i] = 20000.0 * polygon_lux(glow.corner, 4, seen_by(i), (dvec3){ 0, 0, 1 });
+    for (int i = 0; i < WIDE * HIGH; i++) {
+        dvec3 d = d3_sub((dvec3){ 2.5, 1.5, 2 }, seen_by(i));
+        lux[i]  = 20000.0 * polygon_lux(glow.corner, 4, seen_by(i), (dvec3){ 0, 0, 1 }) +
+                 200.0 * d.z / pow(d3_dot(d, d), 1.5);
+    }
     view_result r;
     look_down(
         &l,
         "lux4: 1\nroom: {size: [3, 2, 2.5], reflectance: {ceiling: 0, walls: 0, floor: 0.4}}\n"
-        "scene: glow.gltf\n" PLAN,
+        "scene: glow.gltf\nlights: [{type: point, at: [2.5, 1.5, 2], intensity: 200}]\n" PLAN,
         0.02, &r);
     check_pixels(&r, lux, 0.4, 0.005);
     lab_close(&l);

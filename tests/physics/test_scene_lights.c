@@ -5,7 +5,7 @@
 #include "tests/lab.h"
 #include "tests/test.h"
 
-#include <stdio.h>
+#include <string.h>
 
 static const dvec3 up = { 0, 0, 1 };
 
@@ -223,6 +223,42 @@ TEST(areas_of_a_model_give_their_closed_forms)
     lab_close(&l);
 }
 
+/* ---- far from the origin --------------------------------------------------------------------- */
+
+/* In a country's grid, where a float resolves half a metre, all is as it is at the origin. */
+TEST(lights_far_from_the_origin_lose_nothing)
+{
+    static const dvec3 far = { 500000, 5400000, 100 };
+    const dvec3 glow[4]    = {
+           { 3.0, 1.0, 1.0 }, { 3.0, 2.0, 1.0 }, { 3.5, 2.0, 2.0 }, { 3.5, 1.0, 2.0 }
+    };
+    const dvec3 rect[4] = { { 0.4, 0.7, 2 }, { 1.6, 0.7, 2 }, { 1.6, 1.3, 2 }, { 0.4, 1.3, 2 } };
+    const lab_probe p[] = { { { 1, 1, 0 }, { 0, 0, 1 } },
+                            { { 2.2, 1.4, 0.5 }, { 0.6, 0, 0.8 } },
+                            { { 1, 2, 1.5 }, { 1, -1, 1 } } };
+    enum { N = sizeof p / sizeof *p };
+    lab l;
+    lab_open(&l);
+    quad q;
+    memcpy(q.corner, glow, sizeof glow);
+    lab_quads(&l, "glow.gltf", &q, 1, lab_glow(&l, 2000.0));
+    lab_probe there[N];
+    double want[N];
+    for (int i = 0; i < N; i++) {
+        there[i] = (lab_probe){ d3_add(p[i].at, far), p[i].normal };
+        want[i]  = 2000.0 * polygon_lux(glow, 4, p[i].at, p[i].normal) +
+                  1000.0 * polygon_lux(rect, 4, p[i].at, p[i].normal);
+    }
+    grid_result r;
+    lab_measure(&l,
+                "scene: {file: glow.gltf, at: [500000, 5400000, 100]}\n"
+                "lights: [{type: rect, at: [500001, 5400001, 102], size: [1.2, 0.6], "
+                "luminance: 1000}]",
+                NULL, there, N, &(run_options){ .accuracy = 0.01 }, &r);
+    lab_check("far from the origin", &r, want, 5e-5, 0.01);
+    lab_close(&l);
+}
+
 /* ---- colour ---------------------------------------------------------------------------------- */
 
 static void colored(const char *lamp)
@@ -274,6 +310,7 @@ int main(void)
         cmocka_unit_test(an_aim_in_the_study_comes_before_the_nodes_own),
         cmocka_unit_test(a_measured_light_of_a_model_gives_what_its_file_says),
         cmocka_unit_test(areas_of_a_model_give_their_closed_forms),
+        cmocka_unit_test(lights_far_from_the_origin_lose_nothing),
         cmocka_unit_test(the_color_of_a_point_changes_no_lux),
         cmocka_unit_test(the_color_of_a_rectangle_changes_no_lux),
         cmocka_unit_test(the_color_of_a_line_changes_no_lux),

@@ -1,8 +1,8 @@
 /* tests/physics/long_coverage.c -- intervals hold the truth: more scenes, seeds and accuracies than
  * test_interval_area.c has time for.
  *
- * The truth is a run of a tenth of the accuracy, or finer; of the intervals at least 93 % must hold
- * it, and 95 % of the values must be as accurate as asked.
+ * The truth is a run of 7 times the accuracy; at least 93 % of the intervals must hold it, and 95 %
+ * of the values must be as accurate as asked.
  */
 #include "tests/lab.h"
 #include "tests/test.h"
@@ -18,7 +18,7 @@ static void coverage(lab *l, const char *what, const char *yaml, double accuracy
     run_options o       = { .deadline = HUGE_VAL, .threads = 2 };
     int held = 0, within = 0, all = 0;
     grid_result truth;
-    o.accuracy = 0.1 * accuracy;
+    o.accuracy = 0.15 * accuracy;
     o.seed     = 1000;
     assert_true(grid_run(&l->a, s, g, &o, &truth, NULL));
     o.accuracy = accuracy;
@@ -58,8 +58,8 @@ static void write_files(lab *l)
 
 static void all_accuracies(const char *what, const char *lamps, const char *quantity)
 {
-    static const double accuracy[] = { 0.1, 0.05, 0.02 };
-    for (int i = 0; i < 3; i++) {
+    static const double accuracy[] = { 0.1, 0.05 };
+    for (int i = 0; i < 2; i++) {
         char yaml[2048];
         lab l;
         lab_open(&l);

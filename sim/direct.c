@@ -3,6 +3,8 @@
 
 #include "core/color.h"
 
+#include <float.h>
+
 struct direct_scratch {
     vray rays[DIRECT_PACKETS];
     vmask asked[DIRECT_PACKETS], blocked[DIRECT_PACKETS];
@@ -38,6 +40,22 @@ vray direct_shadow_ray(const vsurface *at, const vvec3 *wi, vfloat dist)
                    .reach     = vselect(far, dist, length - before) };
 }
 
+/* The points that the glowing surface l shines on from the place that was drawn, and how far shadow
+ * rays may go that are not to meet it. Places as drawn and as traced are off its plane by some
+ * roundings of the coordinates; along the ray by more, the flatter it comes in: by that over the
+ * cosine to the normal, the axis of its bounds. A point so close to the plane lies in it, and gets
+ * nothing, where by a rounding it might be lit by what it lies in. */
+static vmask glow_reaches(const light *l, const vsurface *at, const vlight_sample *to, vfloat *dist)
+{
+    const float roundings = 16.0f * 0x1p-24f;
+    light_bounds box      = light_bounds_of(l);
+    vfloat corners        = vmax(largest(vspread(box.low)), largest(vspread(box.high)));
+    vfloat off            = roundings * vmax(corners, largest(at->position));
+    vfloat cosine         = vabs(vdot(to->wi, vspread(box.axis)));
+    *dist                 = to->dist - vmin(off / vmax(cosine, vsplat(FLT_MIN)), 0.5f * to->dist);
+    return cosine * to->dist > off;
+}
+
 static void trace_shadows(const scene *s, direct_scratch *w, int packets, ray_hint hint)
 {
     int64_t before = w->ray_count;
@@ -64,7 +82,10 @@ static void take(const scene *s, direct_scratch *w, const direct_batch *b, int k
     vmask lit = light_sample(s->lights[l], &at->position, b->u[k].x, b->u[k].y, lanes, &lamp);
     if (!b->all_around)
         lit = lit & (vdot(lamp.wi, at->normal) > 0.0f);
-    vray ray   = direct_shadow_ray(at, &lamp.wi, lamp.dist);
+    vfloat dist = lamp.dist;
+    if (l >= s->light_count)
+        lit = lit & glow_reaches(s->lights[l], at, &lamp, &dist);
+    vray ray   = direct_shadow_ray(at, &lamp.wi, dist);
     out->wi    = vselect3(lit, lamp.wi, out->wi);
     out->e     = vselect3(lit, vscale(lamp.e, 1.0f / chance), out->e);
     out->pdf   = vselect(lit, lamp.pdf * chance, out->pdf);

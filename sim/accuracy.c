@@ -269,23 +269,26 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+/* The channels that are held to the accuracy begin here. */
+static int first_held(const run_state *s) { return s->judged > 1 ? 1 : 0; }
+
+static double share_of(int channel) { return channel ? PARTS_SHARE : 1.0; }
+
 /* No sample found anything, and they are too few to say that there is nothing: the spread of
- * zeros is 0, and would be taken for certainty. Where parts are judged they tell, whatever the
- * first is made of them. */
+ * zeros is 0, and would be taken for certainty. */
 static bool is_in_doubt(const run_state *s, int channel, int item)
 {
-    return s->total[at(s, channel, item)] == 0.0 && (channel > 0 || s->judged == 1) &&
+    return s->total[at(s, channel, item)] == 0.0 &&
            s->r->samples[item] < (uint64_t)SCRAMBLES * (uint64_t)s->d->dark_samples;
 }
 
-/* The worst of an item's judged channels, against what is asked of each. */
+/* The worst of an item's channels, against what is asked of each. */
 static double worst_ratio(const run_state *s, int item)
 {
     double worst = 0.0;
-    for (int q = 0; q < s->judged; q++) {
-        double ratio = is_in_doubt(s, q, item) ? HUGE_VAL : ratio_of(s, q, item);
-        ratio /= q ? PARTS_SHARE : 1.0;
-        worst = ratio <= worst ? worst : ratio; /* no number is no certainty */
+    for (int q = first_held(s); q < s->judged; q++) {
+        double ratio = is_in_doubt(s, q, item) ? HUGE_VAL : ratio_of(s, q, item) / share_of(q);
+        worst        = ratio <= worst ? worst : ratio; /* no number is no certainty */
     }
     return isnan(worst) ? HUGE_VAL : worst;
 }
@@ -294,10 +297,9 @@ static double worst_ratio(const run_state *s, int item)
 static bool can_be_good(const run_state *s, int item)
 {
     bool can = true;
-    for (int q = 0; q < s->judged && s->d->bound; q++) {
-        double share = s->d->accuracy * (q ? PARTS_SHARE : 1.0);
-        can          = can && s->d->bound[at(s, q, item)] <= share * against_of(s, q, item);
-    }
+    for (int q = first_held(s); q < s->judged && s->d->bound; q++)
+        can = can &&
+              s->d->bound[at(s, q, item)] <= share_of(q) * s->d->accuracy * against_of(s, q, item);
     return can;
 }
 

@@ -16,11 +16,11 @@
  *
  * Bounds of what the samples leave out are added to half widths.
  *
- * Besides the first quantity of an unknown a second may be judged, and parts of that: all light
- * undimmed, and the layers of its groups. Those are held to PARTS_SHARE of the accuracy, against
- * max(|mean|, floor of the second): so it is they that ask for most samples, unless the first is
- * but a small share of the second, and how many samples there are does not depend on how the first
- * is made of the parts.
+ * Instead of one quantity of an unknown, a second and parts of that may be judged: all light
+ * undimmed, and the layers of its groups. They are held to PARTS_SHARE of the accuracy, against
+ * max(|mean|, floor of the second), so that sums of the parts in other shares have the accuracy,
+ * too, unless they are but a little of it all. The first quantity, such a sum, then has its half
+ * width and no say: how many samples there are does not depend on the shares.
  *
  * Who stops at the first small interval stops too early too often, and low: samples that missed
  * what is rare and bright are few, dim and alike. So an unknown is never taken to be much surer
@@ -58,7 +58,8 @@ typedef enum floor_kind {
 
 typedef struct accuracy_desc {
     int items, channels;
-    int judged;          /* the first so many channels are held to the accuracy; 0: one */
+    int judged; /* the first so many channels have half widths; 0: one. If more than one, the
+                   first is not held to the accuracy: see above */
     const double *exact; /* what is known of those besides: judged * items; NULL: 0 */
     const double *bound; /* how far off the rest may be at most, >= 0: judged * items; NULL: 0 */
     double accuracy;     /* > 0, relative */

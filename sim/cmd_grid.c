@@ -55,9 +55,9 @@ static void print_table(const scene *s, const grid_result *r, const totals *t)
     if (r->left_out)
         printf("  %d sensor%s left out: inside furniture\n", r->left_out,
                r->left_out > 1 ? "s" : "");
-    if (r->end != RUN_DONE)
-        printf("  accuracy: %d of %d sensors are not within %g %% yet%s\n", r->missed,
-               r->sensor_count, 100.0 * r->asked, r->layer_count ? " in each layer" : "");
+    if (r->end != RUN_DONE || r->missed)
+        printf("  accuracy: %d of %d sensors are not within %g %%%s\n", r->missed, r->sensor_count,
+               100.0 * r->asked, r->end == RUN_DONE ? " of all as dimmed (layers are)" : " yet");
     if (r->left_to_chance)
         printf("  interval not valid: %s\n", r->left_to_chance);
 }

@@ -37,7 +37,7 @@ vray direct_shadow_ray(const vsurface *at, const vvec3 *wi, vfloat dist)
     vfloat before         = roundings * vmax(largest(place), vmax(largest(start), length));
     return (vray){ .origin    = start,
                    .direction = vselect3(far, *wi, vscale(to, 1.0f / length)),
-                   .reach     = vselect(far, dist, length - before) };
+                   .reach     = vselect(far, dist, length - vmin(before, 0.5f * length)) };
 }
 
 /* The points that the glowing surface l shines on from the place that was drawn, and how far shadow

@@ -23,9 +23,9 @@
 #include <string.h>
 
 enum {
-    TAIL_RAYS   = 16, /* a sensor and layer */
-    BUCKETS     = 1024,
-    TAIL_SET    = 0x7a11, /* its numbers, beside those of samples */
+    TAIL_RAYS = 16, /* a sensor and layer */
+    BUCKETS   = 1024,
+    TAIL_SET  = 0x7a11, /* its numbers, beside those of samples */
 };
 
 /* Of the accuracy asked for: what all weak lamps together may give. */

@@ -238,11 +238,13 @@ static void summarise(grid_result *r)
         r->worst_half_width = fmax(r->worst_half_width, ratio);
         over += ratio > r->asked;
     }
-    if (!isnan(r->reached))
+    bool sampled = !isnan(r->reached);
+    if (sampled && !r->layer_count)
         return;
-    r->reached = r->worst_half_width;
-    r->missed  = over;
-    r->end     = over ? RUN_EXHAUSTED : RUN_DONE;
+    r->missed  = over; /* as the bounds say; or of layers, which alone were held to the accuracy */
+    r->reached = fmax(r->reached, r->worst_half_width);
+    if (!sampled && over)
+        r->end = RUN_EXHAUSTED;
 }
 
 /* At a lamp itself illuminance has no bound. */

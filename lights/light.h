@@ -177,8 +177,6 @@ typedef struct luminaire_desc {
     vec3 c0; /* where C0 points, in place of `rotate`, after what of it lies along aim is taken off;
                 0 0 0: as `rotate` says. C90 is C0 x aim: +y if aimed down with C0 = +x */
     bool point; /* leave the opening out: all light comes from the position */
-    const light *like; /* a luminaire that must outlive this one: if it has the same candelas, its
-                          tables serve both (some 20 kB); NULL: none */
 } luminaire_desc;
 
 const light *light_point(arena *a, const point_desc *d, lux_error *err);

@@ -23,8 +23,6 @@
 #include "core/color.h"
 #include "core/transform.h"
 
-#include <string.h>
-
 /* An aim this close to straight up (sine of the angle) is straight up: a scene's matrices are
  * good to about 1e-7, and their rounding must not choose which way the luminaire turns over. */
 static const double STRAIGHT_UP = 1e-6;
@@ -190,25 +188,6 @@ static bool make_table(luminaire *l, const photometry *web, arena *a, lux_error 
     return true;
 }
 
-/* Those of a luminaire with the same candelas serve as well. */
-static bool find_table(luminaire *l, const luminaire_desc *d, arena *a, lux_error *err)
-{
-    const light_type *type = d->like ? d->like->type : NULL;
-    const luminaire *like  = (const luminaire *)d->like;
-    bool is_luminaire      = type == &luminaire_point_type || type == &luminaire_area_type ||
-                        type == &luminaire_line_type;
-    if (!is_luminaire || like->candela != d->web->candela)
-        return make_table(l, d->web, a, err);
-    l->candela = like->candela;
-    memcpy(l->axes, like->axes, sizeof l->axes);
-    l->gamma_from = like->gamma_from;
-    l->gamma_to   = like->gamma_to;
-    l->down_least = like->down_least;
-    l->down_most  = like->down_most;
-    l->error      = like->error;
-    return true;
-}
-
 static void find_strongest(luminaire *l, const photometry *web)
 {
     int at = 0;
@@ -267,7 +246,7 @@ const light *light_luminaire(arena *a, const luminaire_desc *d, lux_error *err)
     if (!check(d, err))
         return NULL;
     luminaire *l = arena_new(a, luminaire, err);
-    if (!l || !find_table(l, d, a, err))
+    if (!l || !make_table(l, d->web, a, err))
         return NULL;
     l->position = d->position;
     l->scale    = d->scale;
@@ -282,5 +261,5 @@ const light *light_luminaire(arena *a, const luminaire_desc *d, lux_error *err)
         return &l->base;
     l->base = (light){ l->opening.type->meet ? &luminaire_area_type : &luminaire_line_type };
     make_opening(l, d->web);
-    return l->error || luminaire_make_error(l, d->web, a, err) ? &l->base : NULL;
+    return luminaire_make_error(l, d->web, a, err) ? &l->base : NULL;
 }

@@ -19,7 +19,6 @@
 #include "core/sampler.h"
 #include "sim/direct_parts.h"
 
-#include <math.h>
 #include <string.h>
 
 enum {
@@ -172,25 +171,15 @@ static void aim_tail(direct_sensor *w, const vsurface *at, vmask active, int j,
     w->asked[j] = active;
 }
 
-/* Adds what arrives by ray j. */
-static void add_tail(direct_sensor *w, int j, vfloat each, sensor_sum *sums)
+/* Adds what arrives by ray j, and in each lane the bound to the sums of its lamp. */
+static void add_tail(direct_sensor *w, int j, vfloat each, vfloat bound, sensor_sum *sums)
 {
-    for (vmask left = w->asked[j] & ~w->blocked[j]; vany(left);) {
+    for (vmask left = w->asked[j]; vany(left);) {
         int l      = lane(w->light[j], __builtin_ctz((unsigned)vbits(left)));
         vmask same = left & (w->light[j] == l);
         left       = left & ~same;
-        direct_add(w, sums, l, vkeep(same, each), (vfloat){ 0 });
+        direct_add(w, sums, l, vkeep(same & ~w->blocked[j], each), vkeep(same, bound));
     }
-}
-
-/* By what the tail of a layer is still to be multiplied at most. */
-static float most_dimming(const direct_sensor *w, int layer)
-{
-    float most = 0.0f;
-    for (int l = 0; l < w->s->light_count; l++)
-        if (is_asked(w, l) && direct_layer(w, l) == layer)
-            most = fmaxf(most, w->s->light_info[l].dimming);
-    return most;
 }
 
 static void ask_tail(direct_sensor *w, const vsurface *at, int layer, uint32_t first,
@@ -208,14 +197,11 @@ static void ask_tail(direct_sensor *w, const vsurface *at, int layer, uint32_t f
         aim_tail(w, at, active, j, picks);
     w->batched = TAIL_RAYS;
     direct_trace(w, RAYS_INCOHERENT);
-    w->batched = 0;
+    w->batched   = 0;
+    vfloat each  = w->tail[layer] * (1.0f / TAIL_RAYS);
+    vfloat bound = half_width * w->tail[layer];
     for (int j = 0; j < TAIL_RAYS; j++)
-        add_tail(w, j, w->tail[layer] * (1.0f / TAIL_RAYS), sums);
-
-    vfloat bound  = half_width * w->tail[layer];
-    sums[0].bound = sums[0].bound + most_dimming(w, layer) * bound;
-    if (w->s->layered)
-        sums[1 + layer].bound = sums[1 + layer].bound + bound;
+        add_tail(w, j, each, j == 0 ? bound : (vfloat){ 0 }, sums);
 }
 
 void direct_ask(direct_sensor *w, const vsurface *at, vmask active, uint32_t first,

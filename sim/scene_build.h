@@ -85,9 +85,6 @@ double lamp_made_with(const scene_build *b, const study_emission *e);
 /* Adds a light that a maker gave, or passes on that it failed. */
 bool lamp_add(scene_build *b, const light *l, const lamp_entry *e);
 
-/* The last lamp if it has that web: the next may share its tables (luminaire_desc.like). */
-const light *lamp_like(const scene_build *b, const photometry *web);
-
 /* What a web gives of its light with the luminaire tilted as it is aimed (TILT of LM-63). */
 double lamp_tilt(const photometry *web, dvec3 aim);
 

@@ -95,13 +95,6 @@ bool lamp_add(scene_build *b, const light *l, const lamp_entry *e)
     return true;
 }
 
-const light *lamp_like(const scene_build *b, const photometry *web)
-{
-    size_t n                = b->lights.count;
-    const scene_light *info = b->light_info.items;
-    return n && info[n - 1].web == web ? ((const light **)b->lights.items)[n - 1] : NULL;
-}
-
 /* A lamp beyond the walls of the room, or far from all surfaces, lights nothing that was meant. (A
  * street lamp stands above all surfaces, and is right.) */
 static void warn_if_outside(const scene_build *b, study_where where, const char *what, dvec3 at)
@@ -210,7 +203,6 @@ static bool add_luminaire(const luminaire_work *w, luminaire_desc *d, dvec3 at, 
     d->position  = place_of(b, at);
     d->scale     = lamp_watts(l->emission.color, factor * lamp_made_with(b, &l->emission));
     d->web       = w->web;
-    d->like      = lamp_like(b, w->web);
     warn_if_outside(b, l->where, "luminaire", at);
     return lamp_add(b, light_luminaire(b->a, d, b->err), &e);
 }
@@ -448,8 +440,7 @@ static const light *make_shaped(light_work *w, int k, const photometry *web)
     luminaire_desc d = { .position = w->place,
                          .aim      = w->aim,
                          .scale    = lamp_watts(w->from->emission.color, factor * w->made_with),
-                         .web      = own,
-                         .like     = lamp_like(w->b, web) };
+                         .web      = own };
     frame_of_shape(w, k, web, &d);
     double tilt = lamp_tilt(web, d3_from(d.aim));
     d.scale     = v3_scale(d.scale, (float)tilt);

@@ -82,8 +82,7 @@ static const light *make_measured(gltf_work *w)
                          .aim      = w->aim,
                          .c0       = d3_to_float(w->x),
                          .scale    = watts_of(w),
-                         .web      = w->web,
-                         .like     = lamp_like(w->b, w->web) };
+                         .web      = w->web };
     w->lumens        = w->strength * w->web->luminaire_lumens;
     return light_luminaire(w->b->a, &d, w->b->err);
 }

@@ -165,44 +165,6 @@ TEST(what_makes_no_sense_is_refused)
     arena_clear(&a);
 }
 
-/* What it gives at a place, and how far off its point is there. */
-static void look(const light *l, float out[4])
-{
-    vvec3 p    = vspread((vec3){ 1.5f, 0.7f, -4 });
-    vfloat far = vsplat(0.0f);
-    vlight_sample s;
-    light_sample(l, &p, vsplat(0.3f), vsplat(0.6f), ALL_LANES, &s);
-    out[0] = lane(s.e.x, 0), out[1] = lane(s.wi.x, 0);
-    l->type->as_point(l, &p, ALL_LANES, &s, &far);
-    out[2] = lane(s.e.x, 0), out[3] = lane(far, 0);
-}
-
-TEST(one_like_another_is_as_if_made_by_itself)
-{
-    arena a                = { 0 };
-    photometry sized       = web;
-    sized.opening          = OPENING_RECTANGLE;
-    sized.length           = 0.6f;
-    sized.width            = 0.3f;
-    photometry other       = sized;
-    const float brighter[] = { 20, 101, 20, 201, 20, 301, 20, 402 };
-    other.candela          = brighter;
-    luminaire_desc d       = { .aim = { 0, 0, -1 }, .scale = { 1, 1, 1 }, .web = &sized };
-    const light *first     = light_luminaire(&a, &d, NULL);
-    d.rotate               = 0.5f;
-    for (int k = 0; k < 2; k++) {
-        float alone[4], alike[4];
-        d.web  = k ? &other : &sized; /* whose candelas are others: nothing is shared */
-        d.like = NULL;
-        look(light_luminaire(&a, &d, NULL), alone);
-        d.like = first;
-        look(light_luminaire(&a, &d, NULL), alike);
-        for (int i = 0; i < 4; i++)
-            assert_true(alone[i] == alike[i] && alone[i] != 0.0f);
-    }
-    arena_clear(&a);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -216,7 +178,6 @@ int main(void)
         cmocka_unit_test(the_axis_of_the_turn_stays_where_it_is),
         cmocka_unit_test(dark_lanes_are_zero),
         cmocka_unit_test(what_makes_no_sense_is_refused),
-        cmocka_unit_test(one_like_another_is_as_if_made_by_itself),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -57,8 +57,7 @@ typedef struct light_type {
                     vlight_sample *out);
 
     /* What rays from p along wi meet of the light itself; the lanes that do. NULL: nothing can. */
-    vmask (*hit)(const light *self, const vvec3 *p, const vvec3 *wi, vmask active,
-                 vlight_hit *out);
+    vmask (*hit)(const light *self, const vvec3 *p, const vvec3 *wi, vmask active, vlight_hit *out);
 
     /* The irradiance on a surface at p with unit normal n, W/m^2, exactly, nothing in between: the
      * part of the light that is below the surface's horizon left out. NULL: by samples alone. */
@@ -140,7 +139,8 @@ typedef struct cosine_desc {
     float exponent; /* n >= 0, at most 1e4; 1: as a small matt surface */
 } cosine_desc;
 
-/* A line that shines around itself as a thin matt cylinder does: with the sine of the angle to it. */
+/* A line that shines around itself as a thin matt cylinder does: with the sine of the angle to it.
+ */
 typedef struct linear_desc {
     vec3 from, to;  /* m, two places */
     vec3 intensity; /* W/sr, of the whole line, square to it, >= 0; its flux is pi^2 times that */
@@ -155,9 +155,9 @@ typedef struct disk_desc {
 } disk_desc;
 
 typedef struct rect_desc {
-    vec3 centre;         /* m */
-    vec3 aim;            /* the side that shines; any length but 0 */
-    vec3 up;             /* along `height`, after what of it lies along aim is taken off; not parallel */
+    vec3 centre; /* m */
+    vec3 aim;    /* the side that shines; any length but 0 */
+    vec3 up;     /* along `height`, after what of it lies along aim is taken off; not parallel */
     float width, height; /* m, > 0; width along aim x up: +x if aimed down with up = +y */
     vec3 radiance;       /* W/(sr m^2), >= 0 */
 } rect_desc;
@@ -168,12 +168,17 @@ typedef struct triangle_desc {
     vec3 radiance;  /* W/(sr m^2), >= 0 */
 } triangle_desc;
 
+/* What luminaires of one web share: tables of some 20 KB that take milliseconds to make. */
+typedef struct luminaire_model luminaire_model;
+
 typedef struct luminaire_desc {
     vec3 position; /* m, centre of the luminous opening */
     vec3 aim;      /* where gamma = 0 points; any length but 0 */
     float rotate;  /* rad, counter-clockwise about +z seen from above, before aiming */
     vec3 scale;    /* W/sr for each candela of the file: dimming, colour, 1/179; >= 0 */
     const struct photometry *web; /* must outlive the light; several lights may share it */
+    const luminaire_model *model; /* of this web, or of one that differs in its opening alone; must
+                                     outlive the light; NULL: one is made for it */
     vec3 c0; /* where C0 points, in place of `rotate`, after what of it lies along aim is taken off;
                 0 0 0: as `rotate` says. C90 is C0 x aim: +y if aimed down with C0 = +x */
     bool point; /* leave the opening out: all light comes from the position */
@@ -188,5 +193,9 @@ const light *light_disk(arena *a, const disk_desc *d, lux_error *err);
 const light *light_rect(arena *a, const rect_desc *d, lux_error *err);
 const light *light_triangle(arena *a, const triangle_desc *d, lux_error *err);
 const light *light_luminaire(arena *a, const luminaire_desc *d, lux_error *err);
+
+/* For all luminaires of that web, which must outlive them. NULL, with *err, where a light could not
+ * be made of it either. */
+const luminaire_model *luminaire_model_new(arena *a, const struct photometry *web, lux_error *err);
 
 #endif

@@ -51,29 +51,32 @@ static vmask point_sample(const light *self, const vvec3 *p, vfloat s, vfloat t,
 vec3 luminaire_flux(const light *self)
 {
     const luminaire *l = (const luminaire *)self;
-    return v3_scale(l->scale, (float)l->lumens);
+    return v3_scale(l->scale, (float)l->model->lumens);
 }
 
 vec3 luminaire_peak(const light *self, vec3 *toward)
 {
     const luminaire *l = (const luminaire *)self;
-    *toward            = l->strongest;
-    return v3_scale(l->scale, l->most);
+    dvec3 along        = d3_from(l->model->strongest);
+    dvec3 across = d3_add(d3_scale(d3_from(l->c0), along.x), d3_scale(d3_from(l->c90), along.y));
+    *toward      = d3_to_float(d3_add(across, d3_scale(d3_from(l->axis), along.z)));
+    return v3_scale(l->scale, l->model->most);
 }
 
 /* Of the cones about the axis and about its opposite that hold all light, the narrower. */
 light_bounds luminaire_bounds(const light *self)
 {
-    const luminaire *l = (const luminaire *)self;
-    bool down          = l->down_least >= -l->down_most;
-    vec3 far           = l->reach;
-    vec3 at            = l->position;
+    const luminaire *l       = (const luminaire *)self;
+    const luminaire_model *m = l->model;
+    bool down                = m->down_least >= -m->down_most;
+    vec3 far                 = l->reach;
+    vec3 at                  = l->position;
     return (light_bounds){ .low        = { at.x - far.x, at.y - far.y, at.z - far.z },
                            .high       = { at.x + far.x, at.y + far.y, at.z + far.z },
                            .axis       = down ? l->axis : v3_scale(l->axis, -1.0f),
                            .cos_spread = 1.0f,
-                           .cos_reach  = fmaxf(down ? l->down_least : -l->down_most, -1.0f),
-                           .peak       = rgb_luminance(l->scale) * l->most };
+                           .cos_reach  = fmaxf(down ? m->down_least : -m->down_most, -1.0f),
+                           .peak       = rgb_luminance(l->scale) * m->most };
 }
 
 static const light_type luminaire_point_type = { .name   = "luminaire",
@@ -133,87 +136,6 @@ static void make_opening(luminaire *l, const photometry *web)
     }
 }
 
-/* A copy of angles in rad. */
-static const float *radians(arena *a, const float *deg, int count, lux_error *err)
-{
-    float *rad = arena_array(a, float, (size_t)count, err);
-    for (int i = 0; rad && i < count; i++)
-        rad[i] = (float)((double)deg[i] * (M_PI / 180.0));
-    return rad;
-}
-
-static bool ring_is_dark(const photometry *web, int ring)
-{
-    for (int i = 0; i < web->plane_count; i++)
-        if (web->candela[i * web->gamma_count + ring] > 0.0f)
-            return false;
-    return true;
-}
-
-/* The angles gamma between which there is light, less a rounding of their cosines. */
-static void find_cone(luminaire *l, const photometry *web)
-{
-    int first = 0, last = web->gamma_count - 1;
-    while (first < last && ring_is_dark(web, first + 1))
-        first++;
-    while (last > 0 && ring_is_dark(web, last - 1))
-        last--;
-    if (!ring_is_dark(web, 0))
-        first = 0;
-    if (!ring_is_dark(web, web->gamma_count - 1))
-        last = web->gamma_count - 1;
-    l->down_least = (float)cos((double)web->gamma_deg[last] * (M_PI / 180.0)) - 1e-5f;
-    l->down_most  = (float)cos((double)web->gamma_deg[first] * (M_PI / 180.0)) + 1e-5f;
-}
-
-/* The web as tables have it. From straight down to straight up no rounding of gamma is dark. */
-static bool make_table(luminaire *l, const photometry *web, arena *a, lux_error *err)
-{
-    const float *plane = radians(a, web->plane_deg, web->plane_count, err);
-    const float *gamma = plane ? radians(a, web->gamma_deg, web->gamma_count, err) : NULL;
-    if (!gamma)
-        return false;
-    l->candela = web->candela;
-    l->axes[0] = (table_axis){ plane, web->plane_count, true, (float)(2.0 * M_PI) };
-    l->axes[1] = (table_axis){ gamma, web->gamma_count };
-    for (int i = 0; i < 2; i++)
-        l->axes[i].density = table_axis_density(&l->axes[i]);
-    l->gamma_from = gamma[0];
-    l->gamma_to   = gamma[web->gamma_count - 1];
-    if (web->gamma_deg[0] <= 0.0f)
-        l->gamma_from = -1.0f;
-    if (web->gamma_deg[web->gamma_count - 1] >= 180.0f)
-        l->gamma_to = 4.0f;
-    find_cone(l, web);
-    return true;
-}
-
-static void find_strongest(luminaire *l, const photometry *web)
-{
-    int at = 0;
-    for (int i = 1; i < web->plane_count * web->gamma_count; i++)
-        if (web->candela[i] > web->candela[at])
-            at = i;
-    double plane = (double)web->plane_deg[at / web->gamma_count] * (M_PI / 180.0);
-    double gamma = (double)web->gamma_deg[at % web->gamma_count] * (M_PI / 180.0);
-    dvec3 across =
-        d3_add(d3_scale(d3_from(l->c0), cos(plane)), d3_scale(d3_from(l->c90), sin(plane)));
-    l->most = web->candela[at];
-    l->strongest =
-        d3_to_float(d3_add(d3_scale(across, sin(gamma)), d3_scale(d3_from(l->axis), cos(gamma))));
-}
-
-/* What a web made by a program may lack. */
-static bool check_web(const photometry *web, lux_error *err)
-{
-    if (!web || web->plane_count < 1 || web->gamma_count < 1)
-        return failed(err, ERR_ARGUMENT, "luminaire: there is no photometric web");
-    const table_axis plane = { web->plane_deg, web->plane_count, true, 360.0f };
-    const table_axis gamma = { web->gamma_deg, web->gamma_count, false, 0.0f };
-    return table_axis_check(&plane, "luminaire: C planes", err) &&
-           table_axis_check(&gamma, "luminaire: angles gamma", err);
-}
-
 static bool check_sizes(const photometry *web, lux_error *err)
 {
     const float most    = 1e6f; /* m, whose fourth power is still a float */
@@ -238,21 +160,23 @@ static bool check(const luminaire_desc *d, lux_error *err)
         return failed(err, ERR_ARGUMENT, "luminaire: rotate is not finite");
     if (!v3_nonnegative(d->scale))
         return failed(err, ERR_ARGUMENT, "luminaire: a scale is not >= 0 W/sr for each candela");
-    return check_web(d->web, err) && (d->point || check_sizes(d->web, err));
+    if (!d->web)
+        return failed(err, ERR_ARGUMENT, "luminaire: there is no photometric web");
+    return d->point || check_sizes(d->web, err);
 }
 
 const light *light_luminaire(arena *a, const luminaire_desc *d, lux_error *err)
 {
     if (!check(d, err))
         return NULL;
-    luminaire *l = arena_new(a, luminaire, err);
-    if (!l || !make_table(l, d->web, a, err))
+    const luminaire_model *m = d->model ? d->model : luminaire_model_new(a, d->web, err);
+    luminaire *l             = m ? arena_new(a, luminaire, err) : NULL;
+    if (!l)
         return NULL;
+    l->model    = m;
     l->position = d->position;
     l->scale    = d->scale;
-    l->lumens   = d->web->luminaire_lumens;
     make_frame(l, d);
-    find_strongest(l, d->web);
 
     l->base = (light){ &luminaire_point_type };
     if (!d->point)
@@ -261,5 +185,5 @@ const light *light_luminaire(arena *a, const luminaire_desc *d, lux_error *err)
         return &l->base;
     l->base = (light){ l->opening.type->meet ? &luminaire_area_type : &luminaire_line_type };
     make_opening(l, d->web);
-    return luminaire_make_error(l, d->web, a, err) ? &l->base : NULL;
+    return &l->base;
 }

@@ -1,6 +1,6 @@
 /* lights/luminaire.h -- what the files of the luminaire share: luminaire.c makes one that shines
  * from a point, luminaire_area.c has those that shine from their openings, luminaire_error.c says
- * how far the one is off the other.
+ * how far the one is off the other, luminaire_model.c makes what all of one web share.
  */
 #ifndef LIGHTS_LUMINAIRE_H
 #define LIGHTS_LUMINAIRE_H
@@ -10,23 +10,28 @@
 #include "lights/light.h"
 #include "lights/opening.h"
 
-typedef struct luminaire {
-    light base;
-    vec3 position;      /* m */
-    vec3 c0, c90, axis; /* unit: where C0, C90 and gamma 0 point */
-    vec3 scale;         /* W/sr for each candela */
-    double lumens;      /* cd sr: the integral of the web */
-    vec3 strongest;     /* unit: where the largest candela points */
-    float most;         /* cd: the largest */
+/* A web as luminaires look it up, whatever their opening. */
+struct luminaire_model {
+    double lumens;  /* cd sr: the integral of the web */
+    vec3 strongest; /* unit, along C0, C90 and gamma 0: where the largest candela points */
+    float most;     /* cd: the largest */
     const float *candela;
     table_axis axes[2];          /* rad: C, gamma */
     float gamma_from, gamma_to;  /* rad: dark outside of them */
     float down_least, down_most; /* cosines of gamma, a rounding apart: dark outside of them */
+    const float *error;          /* by direction: luminaire_error.c */
+};
+
+typedef struct luminaire {
+    light base;
+    const luminaire_model *model;
+    vec3 position;      /* m */
+    vec3 c0, c90, axis; /* unit: where C0, C90 and gamma 0 point */
+    vec3 scale;         /* W/sr for each candela */
 
     opening opening;
-    vec3 own[3];        /* unit: the opening's own axes */
-    vec3 reach;         /* m: half the size of the box around the opening, along the world's axes */
-    const float *error; /* of the web, by direction: luminaire_error.c */
+    vec3 own[3]; /* unit: the opening's own axes */
+    vec3 reach;  /* m: half the size of the box around the opening, along the world's axes */
 } luminaire;
 
 extern const light_type luminaire_area_type, luminaire_line_type;
@@ -35,8 +40,8 @@ vec3 luminaire_flux(const light *self);
 vec3 luminaire_peak(const light *self, vec3 *toward);
 light_bounds luminaire_bounds(const light *self);
 
-/* Makes what luminaire_as_point needs to know of the web. */
-bool luminaire_make_error(luminaire *l, const struct photometry *web, arena *a, lux_error *err);
+/* What luminaire_as_point needs to know of the web; NULL: memory is out. */
+const float *luminaire_error_table(arena *a, const photometry *web, lux_error *err);
 
 /* light.h's as_point. */
 vmask luminaire_as_point(const light *self, const vvec3 *p, vmask active, vlight_sample *out,
@@ -45,12 +50,12 @@ vmask luminaire_as_point(const light *self, const vvec3 *p, vmask active, vlight
 /* cd in the direction (x, y, down) of the luminaire's frame, which is at gamma: gamma =
  * atan2(sqrt(x^2
  * + y^2), down), C = atan2(y, x); the lanes where it is not dark. */
-static inline vmask vluminaire_lookup(const luminaire *l, vfloat x, vfloat y, vfloat gamma,
+static inline vmask vluminaire_lookup(const luminaire_model *m, vfloat x, vfloat y, vfloat gamma,
                                       vmask active, vfloat *cd)
 {
-    vfloat plane = l->axes[0].count > 1 ? vatan2(y, x) : vsplat(0.0f);
-    *cd          = vtable_lookup2(l->candela, l->axes, plane, gamma);
-    return active & (gamma >= l->gamma_from) & (gamma <= l->gamma_to) & (*cd > 0.0f);
+    vfloat plane = m->axes[0].count > 1 ? vatan2(y, x) : vsplat(0.0f);
+    *cd          = vtable_lookup2(m->candela, m->axes, plane, gamma);
+    return active & (gamma >= m->gamma_from) & (gamma <= m->gamma_to) & (*cd > 0.0f);
 }
 
 /* cd toward a point that sees the place along the unit vector wi; the lanes where it is not dark.
@@ -60,10 +65,10 @@ static inline vmask vluminaire_candela(const luminaire *l, vvec3 wi, vmask activ
     vfloat x     = -vdot(wi, vspread(l->c0));
     vfloat y     = -vdot(wi, vspread(l->c90));
     vfloat down  = -vdot(wi, vspread(l->axis));
-    vmask inside = active & (down >= l->down_least) & (down <= l->down_most);
+    vmask inside = active & (down >= l->model->down_least) & (down <= l->model->down_most);
     if (!vany(inside))
         return inside;
-    return vluminaire_lookup(l, x, y, vatan2(vsqrt(x * x + y * y), down), inside, cd);
+    return vluminaire_lookup(l->model, x, y, vatan2(vsqrt(x * x + y * y), down), inside, cd);
 }
 
 #endif

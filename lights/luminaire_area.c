@@ -106,7 +106,7 @@ static vfloat area_weight(const light *self, const vvec3 *p, const vvec3 *n, vma
 
     vfloat cd = { 0 };
     vmask lit = vluminaire_candela(l, wi, active, &cd);
-    cd        = vmax(vkeep(lit, cd), (dim + 0.5f * k * k) * l->most);
+    cd        = vmax(vkeep(lit, cd), (dim + 0.5f * k * k) * l->model->most);
     return vkeep(active, rgb_luminance(l->scale) * cd * cos / (dist2 + spread));
 }
 

@@ -271,7 +271,7 @@ static void add_rung(const web_view *v, const home *h, float *out)
     out[3]       = (float)(kinks + 0.5 * folds + steep);
 }
 
-bool luminaire_make_error(luminaire *l, const photometry *web, arena *a, lux_error *err)
+const float *luminaire_error_table(arena *a, const photometry *web, lux_error *err)
 {
     arena rough = { 0 };
     web_view v  = { .web = web, .bands = web->gamma_count + 1, .plane_step = 2.0 * M_PI };
@@ -286,8 +286,7 @@ bool luminaire_make_error(luminaire *l, const photometry *web, arena *a, lux_err
         add_rung(&v, &h, out + i * FIGURES);
     }
     arena_clear(&rough);
-    l->error = out;
-    return out != NULL;
+    return out;
 }
 
 /* ---- asking ------------------------------------------------------------------------------ */
@@ -297,15 +296,15 @@ typedef struct vweb_change {
 } vweb_change;
 
 /* Toward gamma, in a ball of the radius asin(rho), rho < 1/2. */
-static vweb_change change_at(const luminaire *l, vfloat gamma, vfloat rho, vmask active)
+static vweb_change change_at(const luminaire_model *m, vfloat gamma, vfloat rho, vmask active)
 {
     vint step = vto_int(vmin(gamma * (float)(HOMES / M_PI), vsplat((float)(HOMES - 1))));
     /* rho = 1/2, 1/4, ... are the ends of rungs; a rounding above counts as below */
     vfloat halvings = vmin(-vlog2(rho) - (1.0f + 1e-5f), vsplat((float)(RUNGS - 1)));
     vint rung       = vto_int(vmax(halvings, vsplat(0.0f)));
     vint at         = vkeep_int(active, (step * RUNGS + rung) * FIGURES);
-    return (vweb_change){ vgather(l->error, at), vgather(l->error, at + 1),
-                          vgather(l->error, at + 2), vgather(l->error, at + 3) };
+    return (vweb_change){ vgather(m->error, at), vgather(m->error, at + 1),
+                          vgather(m->error, at + 2), vgather(m->error, at + 3) };
 }
 
 /* cd/m^2 from a flat opening; i: cd, toward p from the centre. */
@@ -365,7 +364,7 @@ vmask luminaire_as_point(const light *self, const vvec3 *p, vmask active, vlight
     vfloat y     = -vdot(wi, vspread(l->c90));
     vfloat gamma = vatan2(vsqrt(x * x + y * y), -vdot(wi, vspread(l->axis)));
     vfloat cd    = { 0 };
-    vmask lit    = vluminaire_lookup(l, x, y, gamma, active & (dist2 > 0.0f), &cd);
+    vmask lit    = vluminaire_lookup(l->model, x, y, gamma, active & (dist2 > 0.0f), &cd);
     cd           = vkeep(lit, cd);
     out->wi      = vkeep3(lit, wi);
     out->dist    = vkeep(lit, dist);
@@ -375,7 +374,7 @@ vmask luminaire_as_point(const light *self, const vvec3 *p, vmask active, vlight
     /* What it is off, also where it is dark itself */
     vfloat rho      = l->opening.radius / dist;
     vmask far       = active & (rho < 0.5f);
-    vweb_change web = change_at(l, gamma, rho, far);
+    vweb_change web = change_at(l->model, gamma, rho, far);
     vfloat off =
         l->opening.flat
             ? flat_error(&l->opening, web, cd, dist2, rho)

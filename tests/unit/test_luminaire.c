@@ -165,6 +165,64 @@ TEST(what_makes_no_sense_is_refused)
     arena_clear(&a);
 }
 
+/* As each alone, and whatever the opening, which is the lamp's own affair. */
+TEST(lamps_of_one_model_shine_as_those_that_have_their_own)
+{
+    arena a                  = { 0 };
+    photometry panel         = web;
+    panel.opening            = OPENING_RECTANGLE;
+    panel.length             = 1.2f;
+    panel.width              = 0.3f;
+    const luminaire_model *m = luminaire_model_new(&a, &web, NULL);
+    assert_non_null(m);
+    luminaire_desc d = { .aim = { 0, 1, -1 }, .rotate = 0.5f, .scale = { 1, 2, 3 }, .web = &panel };
+    const light *own = light_luminaire(&a, &d, NULL);
+    d.model          = m;
+    const light *shared = light_luminaire(&a, &d, NULL);
+
+    vvec3 p = vspread((vec3){ 0.25f, 0.5f, -1.0f });
+    vlight_sample x, y;
+    assert_true(vall(light_sample(own, &p, vsplat(0.3f), vsplat(0.6f), ALL_LANES, &x)));
+    assert_true(vall(light_sample(shared, &p, vsplat(0.3f), vsplat(0.6f), ALL_LANES, &y)));
+    assert_memory_equal(&x, &y, sizeof x);
+    vfloat error, same;
+    assert_true(vall(own->type->as_point(own, &p, ALL_LANES, &x, &error)));
+    assert_true(vall(shared->type->as_point(shared, &p, ALL_LANES, &y, &same)));
+    assert_memory_equal(&error, &same, sizeof error);
+    light_bounds b = light_bounds_of(own), c = light_bounds_of(shared);
+    assert_near(c.peak, b.peak, 0.0);
+    arena_clear(&a);
+}
+
+/* The model of a web with 4 planes is some 16 KB; a lamp a fraction of one. */
+TEST(a_lamp_of_a_model_takes_no_more_room_for_its_web)
+{
+    arena a          = { 0 };
+    luminaire_desc d = { .aim   = { 0, 0, -1 },
+                         .scale = { 1, 1, 1 },
+                         .web   = &web,
+                         .model = luminaire_model_new(&a, &web, NULL) };
+    uintptr_t first  = (uintptr_t)light_luminaire(&a, &d, NULL);
+    uintptr_t second = (uintptr_t)light_luminaire(&a, &d, NULL);
+    assert_in_range(second - first, 1, 512);
+    arena_clear(&a);
+}
+
+TEST(no_model_is_made_of_what_is_no_web)
+{
+    arena a        = { 0 };
+    lux_error err  = { 0 };
+    photometry bad = web;
+    bad.gamma_deg  = (const float[]){ 90, 0 };
+    assert_null(luminaire_model_new(&a, &bad, &err));
+    assert_int_equal(err.code, ERR_ARGUMENT);
+    memory_is_out = true;
+    assert_null(luminaire_model_new(&a, &web, &err));
+    memory_is_out = false;
+    assert_int_equal(err.code, ERR_MEMORY);
+    arena_clear(&a);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -178,6 +236,9 @@ int main(void)
         cmocka_unit_test(the_axis_of_the_turn_stays_where_it_is),
         cmocka_unit_test(dark_lanes_are_zero),
         cmocka_unit_test(what_makes_no_sense_is_refused),
+        cmocka_unit_test(lamps_of_one_model_shine_as_those_that_have_their_own),
+        cmocka_unit_test(a_lamp_of_a_model_takes_no_more_room_for_its_web),
+        cmocka_unit_test(no_model_is_made_of_what_is_no_web),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -208,7 +208,7 @@ const scene *scene_new(arena *a, const study *from, const scene_options *o, noti
     if (!s || !read_files(&b) || !build_materials(&b) || !build_bounds(&b) || !build_bodies(&b))
         return NULL;
     s->world = build_world(&b);
-    if (!s->world || !build_lights(&b) || !build_cameras(&b))
+    if (!s->world || !build_lamps(&b) || !build_cameras(&b))
         return NULL;
 
     s->study          = from;

@@ -29,7 +29,6 @@ typedef struct scene_light {
     double full;           /* lm, not dimmed */
     double watts;          /* W, of the luminaire, not dimmed; NAN: not known */
     const photometry *web; /* NULL */
-    const void *profile;   /* of a glTF light: which web of its file; NULL */
     vec3 color;            /* luminance 1 */
     int group;             /* in scene.groups */
     float dimming; /* by which its light is still to be multiplied: 1 unless the scene is layered */

@@ -40,6 +40,7 @@ typedef struct scene_build {
         *owned; /* of study->scenes, by their first use: meshes that are of some body; NULL: none */
     int32_t owner_count;
     list materials, material_info, lights, light_info, cameras, groups;
+    list webs;                 /* const scene_web *, by name */
     list emitters, emitter_of; /* const light *; int32_t */
     int64_t *first_emitter;    /* as in the scene */
     bool lights_differ;        /* in colour */
@@ -59,6 +60,8 @@ bool build_bodies(scene_build *b);    /* scene_nodes.c: luminaires at nodes, wha
 world *build_world(scene_build *b);   /* scene_world.c */
 bool build_emitters(scene_build *b, const mesh *meshes, const world_instance *instances,
                     uint32_t count);    /* scene_emitters.c, of what the world is made of */
+bool build_lamps(scene_build *b);       /* scene_lamps.c: all that follow */
+bool build_luminaires(scene_build *b);  /* scene_luminaires.c */
 bool build_lights(scene_build *b);      /* scene_lights.c */
 bool build_gltf_lights(scene_build *b); /* scene_lights_gltf.c */
 
@@ -74,7 +77,6 @@ typedef struct lamp_entry {
     double lumens;                  /* not dimmed; HUGE_VAL: far away */
     double watts;                   /* not dimmed; NAN: not known */
     const photometry *web;          /* NULL */
-    const void *profile;            /* of a glTF light: which web it is of the file; NULL */
     int32_t owner;                  /* whose body does not shade it; 0: all do */
     bool far;
 } lamp_entry;
@@ -85,11 +87,44 @@ double lamp_made_with(const scene_build *b, const study_emission *e);
 /* Adds a light that a maker gave, or passes on that it failed. */
 bool lamp_add(scene_build *b, const light *l, const lamp_entry *e);
 
+/* A place of the user's frame in the scene's. */
+vec3 lamp_place(const scene_build *b, dvec3 at);
+
 /* What a web gives of its light with the luminaire tilted as it is aimed (TILT of LM-63). */
 double lamp_tilt(const photometry *web, dvec3 aim);
 
 /* Radiometric channels of a photometric strength in a colour of luminance 1. */
 vec3 lamp_watts(vec3 color, double per_lumen_unit);
+
+/* Of the places of one entry, those beyond the walls of the room, or far from all surfaces: a lamp
+ * there lights nothing that was meant. */
+typedef struct lamps_outside {
+    int count;
+    dvec3 first; /* m */
+} lamps_outside;
+
+void lamp_look_outside(const scene_build *b, dvec3 at, lamps_outside *o);
+void lamp_tell_outside(const scene_build *b, study_where where, const char *what,
+                       const lamps_outside *o);
+void lamp_check_dimming(const scene_build *b, study_where where, double dimming);
+
+/* ---- photometric files (scene_webs.c) -------------------------------------------------------- */
+
+typedef struct scene_web {
+    const char *name; /* the path, or where in a glTF file it is */
+    const photometry *web;
+    const luminaire_model *model;
+} scene_web;
+
+/* The file at the path `name`, or bytes that stand in another file at `name`, followed by a NUL
+ * that size does not count; read when it is first asked for. */
+const scene_web *scene_web_of(scene_build *b, const char *name, const char *bytes, size_t size,
+                              lux_error *err);
+
+/* The file that an entry of the study names. */
+const scene_web *study_web(scene_build *b, const char *path, study_where where);
+
+/* ---- the whole ------------------------------------------------------------------------------- */
 
 /* How many lamps light patches too small for samples to find, of which the user is told
  * (scene_chance.c). */

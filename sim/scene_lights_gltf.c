@@ -53,20 +53,14 @@ static const light *make_area(gltf_work *w)
     return light_rect(w->b->a, &d, w->b->err);
 }
 
-/* The web of a light: lights of one profile share it. */
-static const photometry *web_of(gltf_work *w)
+static const scene_web *file_of(gltf_work *w)
 {
-    const gltf_light *l        = w->from;
-    const scene_light *earlier = w->b->light_info.items;
-    for (size_t i = 0; i < w->b->light_info.count; i++)
-        if (earlier[i].profile &&
-            (earlier[i].profile == l->photometry_path || earlier[i].profile == l->photometry_bytes))
-            return earlier[i].web;
+    const gltf_light *l = w->from;
     if (l->photometry_bytes)
-        return photometry_parse(w->b->a, l->photometry_name, l->photometry_bytes,
-                                l->photometry_size, w->b->notices, w->b->err);
-    lux_error why         = { 0 };
-    const photometry *web = photometry_read(w->b->a, l->photometry_path, w->b->notices, &why);
+        return scene_web_of(w->b, l->photometry_name, l->photometry_bytes, l->photometry_size,
+                            w->b->err);
+    lux_error why        = { 0 };
+    const scene_web *web = scene_web_of(w->b, l->photometry_path, NULL, 0, &why);
     if (!web && why.code == ERR_IO) /* the scene names what is not there */
         return failed(w->b->err, ERR_IO, "%s: %s", l->photometry_name, why.text);
     return web ? web : failed(w->b->err, why.code, "%s", why.text);
@@ -74,15 +68,17 @@ static const photometry *web_of(gltf_work *w)
 
 static const light *make_measured(gltf_work *w)
 {
-    w->web = web_of(w);
-    if (!w->web)
+    const scene_web *file = file_of(w);
+    if (!file)
         return NULL;
+    w->web = file->web;
     w->strength *= lamp_tilt(w->web, w->along);
     luminaire_desc d = { .position = w->place,
                          .aim      = w->aim,
                          .c0       = d3_to_float(w->x),
                          .scale    = watts_of(w),
-                         .web      = w->web };
+                         .web      = w->web,
+                         .model    = file->model };
     w->lumens        = w->strength * w->web->luminaire_lumens;
     return light_luminaire(w->b->a, &d, w->b->err);
 }
@@ -121,7 +117,7 @@ static bool add(scene_build *b, const study_scene *s, const gltf_light *l, const
                           .emission = emission_of(l),
                           .at       = at,
                           .along    = along,
-                          .place    = d3_to_float(d3_sub(at, b->centre)),
+                          .place    = lamp_place(b, at),
                           .aim      = d3_to_float(along),
                           .x        = unit(transform_vector(&to, (dvec3){ 1, 0, 0 })),
                           .y        = unit(transform_vector(&to, (dvec3){ 0, 1, 0 })),
@@ -136,7 +132,6 @@ static bool add(scene_build *b, const study_scene *s, const gltf_light *l, const
                           .lumens   = w.lumens,
                           .watts    = w.web && w.web->watts > 0.0 ? w.web->watts : (double)NAN,
                           .web      = w.web,
-                          .profile  = l->photometry_path ? l->photometry_path : l->photometry_bytes,
                           .far      = far };
     return lamp_add(b, made, &e);
 }

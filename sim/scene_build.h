@@ -90,8 +90,9 @@ bool lamp_add(scene_build *b, const light *l, const lamp_entry *e);
 /* A place of the user's frame in the scene's. */
 vec3 lamp_place(const scene_build *b, dvec3 at);
 
-/* What a web gives of its light with the luminaire tilted as it is aimed (TILT of LM-63). */
-double lamp_tilt(const photometry *web, dvec3 aim);
+/* What a web gives of its light with the luminaire tilted as it is aimed (TILT of LM-63); 1 where
+ * the study says how many lumens leave the luminaire (else NAN). */
+double lamp_tilt(const photometry *web, dvec3 aim, double lumens);
 
 /* Radiometric channels of a photometric strength in a colour of luminance 1. */
 vec3 lamp_watts(vec3 color, double per_lumen_unit);

@@ -17,8 +17,10 @@ vec3 lamp_watts(vec3 color, double per_lumen_unit)
     return v3_scale(color, (float)(per_lumen_unit / LUMENS_PER_WATT));
 }
 
-double lamp_tilt(const photometry *web, dvec3 aim)
+double lamp_tilt(const photometry *web, dvec3 aim, double lumens)
 {
+    if (!isnan(lumens))
+        return 1.0;
     double down = -aim.z / d3_length(aim);
     return photometry_tilt_factor(web, acos(fmax(-1.0, fmin(down, 1.0))) * (180.0 / M_PI));
 }

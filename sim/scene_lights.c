@@ -190,7 +190,7 @@ static const light *make_shaped(light_work *w)
     };
     frame_of_shape(w, &d);
     double factor = isnan(lumens) ? 1.0 : lumens / own;
-    factor *= lamp_tilt(w->shaped, d3_from(d.aim));
+    factor *= lamp_tilt(w->shaped, d3_from(d.aim), lumens);
     w->lumens = factor * own;
     d.scale   = lamp_watts(w->from->emission.color, factor * w->made_with);
     return light_luminaire(w->b->a, &d, w->b->err);

@@ -72,7 +72,7 @@ static const light *make_measured(gltf_work *w)
     if (!file)
         return NULL;
     w->web = file->web;
-    w->strength *= lamp_tilt(w->web, w->along);
+    w->strength *= lamp_tilt(w->web, w->along, (double)NAN);
     luminaire_desc d = { .position = w->place,
                          .aim      = w->aim,
                          .c0       = d3_to_float(w->x),

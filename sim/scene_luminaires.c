@@ -47,7 +47,7 @@ static bool add_luminaire(luminaire_work *w, luminaire_desc *d, dvec3 at, int32_
     scene_build *b           = w->b;
     const study_luminaire *l = w->from;
     const photometry *web    = w->file->web;
-    double factor            = w->factor * lamp_tilt(web, d3_from(d->aim));
+    double factor            = w->factor * lamp_tilt(web, d3_from(d->aim), l->lumens);
     double watts = !isnan(l->watts) ? l->watts : web->watts > 0.0 ? web->watts : (double)NAN;
     lamp_entry e = { .where     = l->where,
                      .luminaire = l,

@@ -100,6 +100,28 @@ TEST(a_file_is_one_web_and_one_model_for_all_lamps_that_name_it)
     assert_int_equal(said.count, 0);
 }
 
+/* ---- TILT ------------------------------------------------------------------------------------ */
+
+TEST(lumens_that_are_given_leave_a_tilted_luminaire_too)
+{
+    folder_write(folder, "lamp.ies", LAMP("0", "0"));
+    const scene *s =
+        open_study("lux4: 1\nroom: {size: [4, 3, 2.5], reflectance: 0}\nluminaires:\n"
+                   "  - {photometry: lamp.ies, at: [1, 1, 2]}\n"
+                   "  - {photometry: lamp.ies, at: [1, 1, 2], aim: [1, 0, 0]}\n"
+                   "  - {photometry: lamp.ies, at: [1, 1, 2], aim: [1, 0, 0], lumens: 500}\n"
+                   "lights:\n  - {type: disk, at: [1, 1, 2], aim: [1, 0, 0], radius: 0.1, "
+                   "photometry: lamp.ies, lumens: 500}\n"
+                   "  - {type: disk, at: [1, 1, 2], aim: [1, 0, 0], radius: 0.1, "
+                   "photometry: lamp.ies}\n"
+                   "grids: [{name: g, on: floor, spacing: 1}]\n");
+    const double want[] = { 200.0 * M_PI, 100.0 * M_PI, 500.0, 500.0, 100.0 * M_PI };
+    for (int i = 0; i < 5; i++) {
+        assert_near(s->light_info[i].lumens, want[i], 1e-6); /* of the web's integral in floats */
+        assert_near(179.0 * (double)light_flux(s->lights[i]).y, want[i], 1e-6);
+    }
+}
+
 /* ---- many ------------------------------------------------------------------------------------ */
 
 TEST(lamps_of_one_entry_that_lie_outside_are_told_of_in_one_line)
@@ -117,6 +139,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_file_is_one_web_and_one_model_for_all_lamps_that_name_it,
                                         prepare, forget),
+        cmocka_unit_test_setup_teardown(lumens_that_are_given_leave_a_tilted_luminaire_too, prepare,
+                                        forget),
         cmocka_unit_test_setup_teardown(lamps_of_one_entry_that_lie_outside_are_told_of_in_one_line,
                                         prepare, forget),
     };

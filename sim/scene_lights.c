@@ -152,6 +152,26 @@ static const photometry *web_in_shape(scene_build *b, const study_light *l, cons
     return own;
 }
 
+/* C0 lies across a rectangle, wherever the file's luminaire is longer: one that is longer the other
+ * way is likely meant to be turned. */
+static void warn_if_turned(const scene_build *b, const study_light *l, const photometry *web)
+{
+    const double clearly = 1.25;
+    bool turned          = web->length_along_deg == 90.0f;
+    double c0            = (double)(turned ? web->width : web->length);
+    double c90           = (double)(turned ? web->length : web->width);
+    double across = l->size[0], up = l->size[1];
+    bool differ = (c0 > clearly * c90 && up > clearly * across) ||
+                  (c90 > clearly * c0 && across > clearly * up);
+    if (l->kind == STUDY_RECT && differ)
+        notice_add(b->notices,
+                   "%s:%d:%d: the opening of %s is longer along %s (%.3g m along C0, %.3g m along "
+                   "C90), this rect along %s (%.3g m and %.3g m): its light lies turned by 90 "
+                   "degrees; with the other order of `size`, and `up` turned too, it would not",
+                   b->study->path, l->where.line, l->where.column, l->photometry,
+                   c0 > c90 ? "C0" : "C90", c0, c90, across > up ? "C0" : "C90", across, up);
+}
+
 static bool read_shape(light_work *w)
 {
     const study_light *l = w->from;
@@ -161,6 +181,7 @@ static bool read_shape(light_work *w)
     if (!isnan(l->lumens) && !(w->file->web->luminaire_lumens > 0.0))
         return study_failed(w->b->study, l->where, w->b->err, ERR_ARGUMENT,
                             "`lumens` cannot scale %s: it gives no light", l->photometry);
+    warn_if_turned(w->b, l, w->file->web);
     w->shaped = web_in_shape(w->b, l, w->file->web);
     return w->shaped != NULL;
 }

@@ -122,6 +122,45 @@ TEST(lumens_that_are_given_leave_a_tilted_luminaire_too)
     }
 }
 
+/* ---- shapes ---------------------------------------------------------------------------------- */
+
+static void open_rect(const char *file, const char *size)
+{
+    char text[1000];
+    snprintf(text, sizeof text,
+             "lux4: 1\nroom: {size: [4, 3, 2.5], reflectance: 0}\nlights:\n"
+             "  - {type: rect, at: [[1, 1, 2], [2, 2, 2]], size: %s, photometry: %s}\n"
+             "grids: [{name: g, on: floor, spacing: 1}]\n",
+             size, file);
+    open_study(text);
+}
+
+/* LM-63 has width before length, and the length along C0. */
+TEST(a_rect_that_is_longer_across_its_file_is_told_of_once)
+{
+    folder_write(folder, "c0.ies", LAMP("0.3", "1.2"));
+    folder_write(folder, "c90.ies", LAMP("1.2", "0.3"));
+    folder_write(folder, "square.ies", LAMP("0.6", "0.6"));
+    folder_write(folder, "point.ies", LAMP("0", "0"));
+    open_rect("c0.ies", "[0.3, 1.2]");
+    assert_said("study.yaml:4:5: the opening of ");
+    assert_said("c0.ies is longer along C0 (1.2 m along C0, 0.3 m along C90), this rect along C90 "
+                "(0.3 m and 1.2 m): ");
+    open_rect("c90.ies", "[1.2, 0.3]");
+    assert_said("c90.ies is longer along C90 (0.3 m along C0, 1.2 m along C90), this rect along C0 "
+                "(1.2 m and 0.3 m): ");
+    open_rect("c0.ies", "[1.2, 0.3]");
+    assert_int_equal(said.count, 0);
+    open_rect("c90.ies", "[0.3, 1.2]");
+    assert_int_equal(said.count, 0);
+    open_rect("c0.ies", "[0.6, 0.6]");
+    assert_int_equal(said.count, 0);
+    open_rect("square.ies", "[0.3, 1.2]");
+    assert_int_equal(said.count, 0);
+    open_rect("point.ies", "[0.3, 1.2]");
+    assert_int_equal(said.count, 0);
+}
+
 /* ---- many ------------------------------------------------------------------------------------ */
 
 TEST(lamps_of_one_entry_that_lie_outside_are_told_of_in_one_line)
@@ -141,6 +180,8 @@ int main(void)
                                         prepare, forget),
         cmocka_unit_test_setup_teardown(lumens_that_are_given_leave_a_tilted_luminaire_too, prepare,
                                         forget),
+        cmocka_unit_test_setup_teardown(a_rect_that_is_longer_across_its_file_is_told_of_once,
+                                        prepare, forget),
         cmocka_unit_test_setup_teardown(lamps_of_one_entry_that_lie_outside_are_told_of_in_one_line,
                                         prepare, forget),
     };

@@ -8,9 +8,11 @@
 #include "core/color.h"
 #include "sim/scene_build.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 
 enum { PACKETS = 128 / LANES, RAYS = PACKETS * LANES };
+enum { MOST_LOOKS = 4096 }; /* lamps */
 
 static const double near_share = 0.015; /* of how far the lamp sees */
 static const double flux_share = 0.01;  /* of a lamp's light: less than that does not matter */
@@ -164,13 +166,56 @@ static void tell_lost_light(const scene *s, const scene_light *info, const surro
             s->study->path, 100.0 * lost / all, info->name, info->at.x, info->at.y, info->at.z);
 }
 
+/* Not far away, nor within a body, which is all that it would see. */
+static bool has_surroundings(const scene_light *info)
+{
+    return isfinite(info->lumens) && !info->owner;
+}
+
+/* lm, of lamps that are looked at: all if 0. Of very many, which take 30 us each, those that give
+ * as much as one of MOST_LOOKS alike would are, and of weaker ones one for each such share of all
+ * light: evenly, and none that matters is left out. */
+static double share_to_look_at(const scene *s)
+{
+    double all = 0.0;
+    for (int i = 0; i < s->light_count; i++)
+        all += has_surroundings(&s->light_info[i]) ? s->light_info[i].lumens : 0.0;
+    return s->light_count > MOST_LOOKS ? all / MOST_LOOKS : 0.0;
+}
+
+/* Whether a lamp takes the light so far into the next share. */
+static bool is_looked_at(double *so_far, double lumens, double share)
+{
+    if (!(share > 0.0))
+        return true;
+    double before = floor(*so_far / share);
+    *so_far += lumens;
+    return floor(*so_far / share) > before;
+}
+
+static void tell_small_patches(const scene *s, int count, dvec3 first_at, notices *n)
+{
+    char who[80];
+    if (s->light_count > MOST_LOOKS)
+        snprintf(who, sizeof who, "at least %d of %d lights", count, s->light_count);
+    else
+        snprintf(who, sizeof who, "%d light%s", count, count > 1 ? "s" : "");
+    bool many = count > 1 || s->light_count > MOST_LOOKS;
+    notice_add(n,
+               "%s: %s, first that at (%g, %g, %g) m, shine%s on a surface close by, or on a small "
+               "spot: what comes back from there is found rarely, intervals are not valid (more "
+               "distance helps)",
+               s->study->path, who, first_at.x, first_at.y, first_at.z, many ? "" : "s");
+}
+
 int scene_small_patches(const scene *s, notices *n)
 {
     int count      = 0;
     dvec3 first_at = { 0, 0, 0 };
+    double share = share_to_look_at(s), so_far = 0.0;
     for (int i = 0; i < s->light_count; i++) {
         const scene_light *info = &s->light_info[i];
-        if (!isfinite(info->lumens) || info->owner) /* its own body is all that it would see */
+        if (!has_surroundings(info) || !is_looked_at(&so_far, info->lumens, share))
             continue;
         surroundings around;
         vec3 at = scene_place(s, info->at);
@@ -185,13 +230,7 @@ int scene_small_patches(const scene *s, notices *n)
     }
     tell_reaching_out(s, n);
     if (count)
-        notice_add(
-            n,
-            "%s: %d light%s, first that at (%g, %g, %g) m, shine%s on a surface close by, or on a "
-            "small spot: what comes back from there is found rarely, intervals are not valid "
-            "(more distance helps)",
-            s->study->path, count, count > 1 ? "s" : "", first_at.x, first_at.y, first_at.z,
-            count > 1 ? "" : "s");
+        tell_small_patches(s, count, first_at, n);
     return count;
 }
 

@@ -173,6 +173,22 @@ TEST(lamps_of_one_entry_that_lie_outside_are_told_of_in_one_line)
     assert_said("study.yaml:5:5: a light at (9, 2, 1) m lies outside the room, ");
 }
 
+/* 20,000 dim lamps in the middle of the room, and one that gives half of all light 1 cm from a
+ * wall: it is among those that are looked at. */
+TEST(of_very_many_lamps_those_that_matter_are_looked_at)
+{
+    folder_write(folder, "lamp.ies", LAMP("0", "0"));
+    const scene *s = open_study(
+        "lux4: 1\nroom: {size: [400, 400, 100], reflectance: 0.5}\nluminaires:\n"
+        "  - {photometry: lamp.ies, lumens: 1, layout: {from: [100, 100, 50], to: [300, 300, 50], "
+        "count: [200, 100]}}\n"
+        "lights: [{type: point, at: [0.01, 200, 50], lumens: 20000}]\n"
+        "grids: [{name: g, on: floor, spacing: 100}]\n");
+    assert_int_equal(s->light_count, 20001);
+    assert_int_equal(s->small_patches, 1);
+    assert_said("study.yaml: at least 1 of 20001 lights, first that at (0.01, 200, 50) m, shine ");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -184,6 +200,8 @@ int main(void)
                                         prepare, forget),
         cmocka_unit_test_setup_teardown(lamps_of_one_entry_that_lie_outside_are_told_of_in_one_line,
                                         prepare, forget),
+        cmocka_unit_test_setup_teardown(of_very_many_lamps_those_that_matter_are_looked_at, prepare,
+                                        forget),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -148,22 +148,48 @@ static void tell_reaching_out(const scene *s, notices *n)
                    info->at.z, count > 1 ? "" : "es");
 }
 
-/* A plain room is closed: light that meets nothing has left it, from a lamp in its very walls. */
-static void tell_lost_light(const scene *s, const scene_light *info, const surroundings *around,
-                            notices *n)
+/* The share of a lamp's light that meets nothing. A plain room is closed: there it has left it,
+ * from a lamp in its very walls. Elsewhere 0. */
+static double lost_share(const scene *s, const scene_light *info, const surroundings *around)
 {
     double all = 0.0, lost = 0.0;
     for (int i = 0; i < RAYS; i++) {
         all += (double)around->strength[i];
         lost += around->distance[i] < INFINITY ? 0.0 : (double)around->strength[i];
     }
-    dvec3 size = s->study->room.size, at = info->at;
-    if (s->study->room.given && is_in_room(size, at, at, 0.0) && lost > flux_share * all)
-        notice_add(
-            n,
-            "%s: about %.0f %% of the light of `%s` at (%g, %g, %g) m leaves the room: it lies in "
-            "a wall, floor or ceiling; 1 cm inside it would not",
-            s->study->path, 100.0 * lost / all, info->name, info->at.x, info->at.y, info->at.z);
+    bool inside = s->study->room.given && scene_is_in_room(s, info->at);
+    return inside && lost > flux_share * all ? lost / all : 0.0;
+}
+
+/* Lamps that lose light: how many, and the first. */
+typedef struct losers {
+    int count;
+    double share;
+    const scene_light *first;
+} losers;
+
+static void add_loser(losers *l, const scene_light *info, double share)
+{
+    if (share > 0.0 && l->count++ == 0) {
+        l->share = share;
+        l->first = info;
+    }
+}
+
+static void tell_lost_light(const scene *s, const losers *l, notices *n)
+{
+    if (l->count == 0)
+        return;
+    char more[80] = "";
+    if (l->count > 1)
+        snprintf(more, sizeof more, ", and of %s%d more,",
+                 s->light_count > MOST_LOOKS ? "at least " : "", l->count - 1);
+    dvec3 at = l->first->at;
+    notice_add(
+        n,
+        "%s: about %.0f %% of the light of `%s` at (%g, %g, %g) m%s leaves the room: it lies in a "
+        "wall, floor or ceiling; 1 cm inside it would not",
+        s->study->path, 100.0 * l->share, l->first->name, at.x, at.y, at.z, more);
 }
 
 /* Not far away, nor within a body, which is all that it would see. */
@@ -212,6 +238,7 @@ int scene_small_patches(const scene *s, notices *n)
 {
     int count      = 0;
     dvec3 first_at = { 0, 0, 0 };
+    losers lost    = { 0 };
     double share = share_to_look_at(s), so_far = 0.0;
     for (int i = 0; i < s->light_count; i++) {
         const scene_light *info = &s->light_info[i];
@@ -220,7 +247,7 @@ int scene_small_patches(const scene *s, notices *n)
         surroundings around;
         vec3 at = scene_place(s, info->at);
         look_around(s, s->lights[i], at, &around);
-        tell_lost_light(s, info, &around, n);
+        add_loser(&lost, info, lost_share(s, info, &around));
         double reach = near_share * view_of(&around) / sqrt(s->light_count);
         if (!s->reflects ||
             (!shines_on_near(&around, reach) && !makes_small_spot(s, s->lights[i], at, reach)))
@@ -229,6 +256,7 @@ int scene_small_patches(const scene *s, notices *n)
             first_at = info->at;
     }
     tell_reaching_out(s, n);
+    tell_lost_light(s, &lost, n);
     if (count)
         tell_small_patches(s, count, first_at, n);
     return count;

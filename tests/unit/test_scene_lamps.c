@@ -189,6 +189,17 @@ TEST(of_very_many_lamps_those_that_matter_are_looked_at)
     assert_said("study.yaml: at least 1 of 20001 lights, first that at (0.01, 200, 50) m, shine ");
 }
 
+/* Half of what is around a lamp in the ceiling is nothing; 1 cm below it nothing is lost. */
+TEST(lamps_in_a_ceiling_are_told_of_in_one_line)
+{
+    open_study("lux4: 1\nroom: {size: [4, 3, 2.5], reflectance: 0}\nlights:\n"
+               "  - {name: bulb, type: point, at: [[1, 1, 2.49], [2, 1, 2.5], [3, 1, 2.5]], "
+               "lumens: 1}\n"
+               "grids: [{name: g, on: floor, spacing: 1}]\n");
+    assert_said("% of the light of `bulb` at (2, 1, 2.5) m, and of 1 more, leaves the room: ");
+    assert_int_equal(count_said("leaves the room"), 1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -200,6 +211,8 @@ int main(void)
                                         prepare, forget),
         cmocka_unit_test_setup_teardown(lamps_of_one_entry_that_lie_outside_are_told_of_in_one_line,
                                         prepare, forget),
+        cmocka_unit_test_setup_teardown(lamps_in_a_ceiling_are_told_of_in_one_line, prepare,
+                                        forget),
         cmocka_unit_test_setup_teardown(of_very_many_lamps_those_that_matter_are_looked_at, prepare,
                                         forget),
     };

@@ -45,10 +45,9 @@ static light_bounds point_bounds(const light *self)
                            .peak       = rgb_luminance(l->intensity) };
 }
 
-static const light_type point_type = { .name   = "point",
-                                       .sample = point_sample,
-                                       .flux   = point_flux,
-                                       .bounds = point_bounds };
+static const light_type point_type = {
+    .name = "point", .sample = point_sample, .flux = point_flux, .bounds = point_bounds
+};
 
 const light *light_point(arena *a, const point_desc *d, lux_error *err)
 {

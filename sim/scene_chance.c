@@ -12,7 +12,7 @@
 #include <stdlib.h>
 
 enum { PACKETS = 128 / LANES, RAYS = PACKETS * LANES };
-enum { MOST_LOOKS = 4096 }; /* lamps */
+enum { MOST_LOOKS = 4096 /* lamps */, MOST_EMITTERS = 256 /* triangles */ };
 
 static const double near_share = 0.015; /* of how far the lamp sees */
 static const double flux_share = 0.01;  /* of a lamp's light: less than that does not matter */
@@ -219,6 +219,49 @@ static bool is_looked_at(double *so_far, double lumens, double share)
     return floor(*so_far / share) > before;
 }
 
+/* The centre of a triangle, as it is seen from before its box. */
+static dvec3 centre_of(const light *l, const light_bounds *b, double size)
+{
+    dvec3 box    = d3_scale(d3_add(d3_from(b->low), d3_from(b->high)), 0.5);
+    vvec3 before = vspread(d3_to_float(d3_add(box, d3_scale(d3_from(b->axis), size))));
+    vlight_sample seen;
+    vfloat error;
+    l->type->as_point(l, &before, ALL_LANES, &seen, &error);
+    vvec3 at = valong(before, seen.wi, seen.dist);
+    return (dvec3){ (double)lane(at.x, 0), (double)lane(at.y, 0), (double)lane(at.z, 0) };
+}
+
+/* A glowing triangle as a light that is looked at from just off its middle: where the patch that it
+ * lights is as small as a lamp's would be, and it is not large itself. */
+static bool emitter_is_near(const scene *s, int e, double share, dvec3 *at)
+{
+    const light *l = s->lights[s->light_count + e];
+    light_bounds b = light_bounds_of(l);
+    vec3 size      = { b.high.x - b.low.x, b.high.y - b.low.y, b.high.z - b.low.z };
+    dvec3 middle   = centre_of(l, &b, (double)v3_length(size));
+    surroundings around[2]; /* behind it, before it */
+    for (int side = 0; side < 2; side++) {
+        dvec3 off = d3_scale(d3_from(b.axis), (2 * side - 1) * 1e-3 * (double)v3_length(size));
+        look_around(s, l, d3_to_float(d3_add(middle, off)), &around[side]);
+    }
+    double reach = near_share * fmax(view_of(&around[0]), view_of(&around[1])) / sqrt(share);
+    *at          = d3_add(middle, s->centre);
+    return (double)v3_length(size) < reach &&
+           (shines_on_near(&around[0], reach) || shines_on_near(&around[1], reach));
+}
+
+/* An even choice of them: triangles of one surface are alike. */
+static int near_emitters(const scene *s, dvec3 *first_at)
+{
+    int step = s->emitter_count / MOST_EMITTERS + 1, count = 0;
+    for (int e = 0; s->reflects && e < s->emitter_count; e += step) {
+        dvec3 at;
+        if (emitter_is_near(s, e, s->light_count + s->emitter_count, &at) && count++ == 0)
+            *first_at = at;
+    }
+    return count;
+}
+
 static void tell_small_patches(const scene *s, int count, dvec3 first_at, notices *n)
 {
     char who[80];
@@ -259,7 +302,14 @@ int scene_small_patches(const scene *s, notices *n)
     tell_lost_light(s, &lost, n);
     if (count)
         tell_small_patches(s, count, first_at, n);
-    return count;
+    int glowing = near_emitters(s, &first_at);
+    if (glowing)
+        notice_add(
+            n,
+            "%s: small glowing surfaces, first that at (%g, %g, %g) m, shine on a surface close "
+            "by: what comes back from there is found rarely, intervals are not valid",
+            s->study->path, first_at.x, first_at.y, first_at.z);
+    return count + glowing;
 }
 
 const char *scene_left_to_chance(const scene *s, bool direct_only)

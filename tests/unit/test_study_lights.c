@@ -330,6 +330,8 @@ TEST(groups_that_no_light_has_are_refused)
         { "dimming: 0.5", "2:10: expected a mapping (key: value), found `0.5`" },
         { "dimming: {sun: 1}",
           "2:11: `sun` cannot be a group of lamps: results call other light so" },
+        { "dimming: {desk.direct: 1}",
+          "2:11: `desk.direct` cannot be a group of lamps: channels of results end so" },
         { "lights: [{type: point, group: direct}]",
           "2:31: `direct` cannot be a group of lamps: results call other light so" },
     };

@@ -139,13 +139,14 @@ static void tell_reaching_out(const scene *s, notices *n)
     for (int l = s->light_count - 1; l >= 0; l--)
         if (reaches_out(s, l))
             count++, first = l;
+    if (count == 0)
+        return;
     const scene_light *info = &s->light_info[first];
-    if (count)
-        notice_add(n,
-                   "%s: %d light%s, first `%s` at (%g, %g, %g) m, reach%s through a wall, floor or "
-                   "ceiling: what shines from behind it is lost",
-                   s->study->path, count, count > 1 ? "s" : "", info->name, info->at.x, info->at.y,
-                   info->at.z, count > 1 ? "" : "es");
+    notice_add(n,
+               "%s: %d light%s, first `%s` at (%g, %g, %g) m, reach%s through a wall, floor or "
+               "ceiling: what shines from behind it is lost",
+               s->study->path, count, count > 1 ? "s" : "", info->name, info->at.x, info->at.y,
+               info->at.z, count > 1 ? "" : "es");
 }
 
 /* The share of a lamp's light that meets nothing. A plain room is closed: there it has left it,

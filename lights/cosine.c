@@ -21,7 +21,7 @@ typedef struct cosine_light {
 static vfloat power_of(const cosine_light *l, vfloat cos_a)
 {
     if (l->whole < 0)
-        return vpow(cos_a, vsplat(l->exponent));
+        return vexp2(l->exponent * vlog2(cos_a)); /* of 0: 0 */
     vfloat power = vsplat(1.0f);
     for (int n = l->whole; n > 0; n >>= 1, cos_a *= cos_a)
         if (n & 1)
@@ -38,7 +38,8 @@ static vmask cosine_sample(const light *self, const vvec3 *p, vfloat s, vfloat t
     vvec3 to     = vsub(vspread(l->position), *p);
     vfloat dist2 = vdot(to, to);
     vfloat dist  = vsqrt(dist2);
-    vvec3 wi     = vscale(to, 1.0f / dist);
+    vfloat per_m = 1.0f / dist;
+    vvec3 wi     = vscale(to, per_m);
 
     vfloat cos_a = -vdot(wi, vspread(l->axis));
     vmask ahead  = active & (dist2 > 0.0f) & (cos_a > 0.0f);
@@ -47,7 +48,7 @@ static vmask cosine_sample(const light *self, const vvec3 *p, vfloat s, vfloat t
 
     out->wi   = vkeep3(lit, wi);
     out->dist = vkeep(lit, dist);
-    out->e    = vscale(vspread(l->intensity), vkeep(lit, share / dist2));
+    out->e    = vscale(vspread(l->intensity), vkeep(lit, share * per_m * per_m));
     out->pdf  = vkeep(lit, vsplat(INFINITY));
     return lit;
 }

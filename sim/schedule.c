@@ -104,7 +104,10 @@ static void tell_of_stale_watts(const scene *s, const schedule *c, notices *n)
 bool schedule_make(arena *a, const scene *s, schedule *out, notices *n, lux_error *err)
 {
     const study_room *room = &s->study->room;
-    *out = (schedule){ .floor = room->given ? room->size.x * room->size.y : (double)NAN };
+    dvec3 across           = d3_sub(s->high, s->low);
+    double model           = across.x > 0.0 && across.y > 0.0 ? across.x * across.y : (double)NAN;
+    *out                   = (schedule){ .floor    = room->given ? room->size.x * room->size.y : model,
+                                         .of_model = !room->given && !isnan(model) };
     if (!make_rows(a, s, out, err))
         return false;
     add_up(out);

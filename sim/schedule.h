@@ -8,8 +8,9 @@
  *
  *     p = P / A,   p_100 = p / (E / 100)           [W/m^2, W/m^2 per 100 lx]
  *
- * with A the floor of the room, or where a study has none the grid's own area, and E the grid's
- * average, maintained. Lights without known watts count for no power, and are counted themselves.
+ * with A the floor of the room, or where a study has none the ground that its model covers (its box
+ * in plan), or without a model the grid's own area, and E the grid's average, maintained. Lights
+ * without known watts count for no power, and are counted themselves.
  */
 #ifndef SIM_SCHEDULE_H
 #define SIM_SCHEDULE_H
@@ -35,7 +36,8 @@ typedef struct schedule {
     bool dimmed;          /* some light is */
     double dimmed_lumens; /* lm */
     double dimmed_watts;  /* W; NAN */
-    double floor;         /* m^2, of the room; NAN: there is none */
+    double floor;         /* m^2, of room or model; NAN: there is none */
+    bool of_model;        /* its box in plan, for want of a room */
 } schedule;
 
 /* The schedule of a scene in a. False, with *err, if memory is out. Where `lumens` scales a file's

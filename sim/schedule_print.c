@@ -103,7 +103,8 @@ static void print_loads(FILE *to, const scene *s, const schedule *c, const doubl
         fprintf(to, "connected load %.1f W, on each grid's own area: there is no `room`\n",
                 c->watts);
     else
-        fprintf(to, "connected load %.1f W, on the room's floor of %.2f m2: %.2f W/m2\n", c->watts,
+        fprintf(to, "connected load %.1f W, on %s of %.2f m2: %.2f W/m2\n", c->watts,
+                c->of_model ? "the ground that the model covers, its box" : "the room's floor",
                 c->floor, c->watts / c->floor);
     for (int i = 0; i < count; i++) {
         schedule_load full, dimmed;

@@ -1,4 +1,5 @@
 /* tests/cli/test_schedule.c -- lux4 grid --schedule: figures worked out by hand. */
+#include "tests/box_gltf.h"
 #include "tests/folder.h"
 #include "tests/program.h"
 #include "tests/test.h"
@@ -193,6 +194,21 @@ TEST(without_a_room_a_load_is_related_to_the_grid)
     folder_free(folder);
 }
 
+TEST(a_model_in_place_of_a_room_has_its_box)
+{
+    char *folder     = folder_of("lux4: 1\nscene: hall.gltf\n"
+                                     "luminaires: [{photometry: lamp.ies, at: [1, 1, 2]}]\n"
+                                     "grids: [{name: g, origin: [0.5, 0.5, 0], u: [1, 0, 0], v: [0, 1, 0], "
+                                     "spacing: 1}]\n");
+    program_result r = { 0 };
+    box_gltf_write(folder, "hall.gltf", (double[]){ 0, 0, -0.5 }, (double[]){ 5, 4, -0.1 }, 0.0);
+    run_json(folder, &r);
+    assert_near(json_number_at(r.out, "schedule.area_m2"), 20.0, 1e-6);
+    assert_near(json_number_at(r.out, "schedule.power_density_w_m2"), 25.0 / 20.0, 1e-6);
+    program_free(&r);
+    folder_free(folder);
+}
+
 /* ---- the table ------------------------------------------------------------------------------- */
 
 TEST(the_table_says_what_is_left_out)
@@ -277,6 +293,7 @@ int main(void)
         cmocka_unit_test(without_being_asked_for_there_is_none),
         cmocka_unit_test(a_load_is_related_to_the_floor_of_the_room),
         cmocka_unit_test(without_a_room_a_load_is_related_to_the_grid),
+        cmocka_unit_test(a_model_in_place_of_a_room_has_its_box),
         cmocka_unit_test(the_table_says_what_is_left_out),
         cmocka_unit_test(without_any_watts_nothing_is_made_up),
         cmocka_unit_test(watts_that_do_not_follow_scaled_light_are_told),

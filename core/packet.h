@@ -247,6 +247,15 @@ static inline vuint vreverse_bits(vuint a)
 /* Over all lanes; vsum adds from lane 0 upward. */
 static inline bool vany(vmask m) { return vbits(m) != 0; }
 static inline bool vall(vmask m) { return vbits(m) == (1 << LANES) - 1; }
+/* The lanes of *left, some of which hold, whose index is that of its first one, *which: those are
+ * taken out of *left. Lanes of different things are so served one thing after the other. */
+static inline vmask vtake_same(vint index, vmask *left, int *which)
+{
+    *which     = lane(index, __builtin_ctz((unsigned)vbits(*left)));
+    vmask same = *left & (index == *which);
+    *left      = *left & ~same;
+    return same;
+}
 static inline float vsum(vfloat a)
 {
     float sum = lane(a, 0);

@@ -1,16 +1,6 @@
 /* materials/material.c -- packets of several materials: those lanes that agree go together. */
 #include "materials/material.h"
 
-/* The lanes of todo that are of the same material as its first; takes them out of todo. */
-static vmask take_first(vint index, vmask *todo, int *material_index)
-{
-    int first       = __builtin_ctz((unsigned)vbits(*todo));
-    *material_index = lane(index, first);
-    vmask same      = *todo & (index == *material_index);
-    *todo           = *todo & ~same;
-    return same;
-}
-
 static vrgb join(vrgb a, vrgb b) { return vadd(a, b); } /* of disjoint lanes, zero elsewhere */
 
 vmask materials_scatter(const material *const *all, vint index, const vvec3 *wo, const vvec3 *n,
@@ -20,7 +10,7 @@ vmask materials_scatter(const material *const *all, vint index, const vvec3 *wo,
     vmask goes = { 0 };
     while (vany(active)) {
         int m;
-        vmask same = take_first(index, &active, &m);
+        vmask same = vtake_same(index, &active, &m);
         vscatter part;
         goes        = goes | all[m]->type->scatter(all[m], wo, n, s, t, same, &part);
         out->wi     = join(out->wi, part.wi);
@@ -35,7 +25,7 @@ vrgb materials_reflect(const material *const *all, vint index, const vvec3 *wo, 
     vrgb sum = { 0 };
     while (vany(active)) {
         int m;
-        vmask same = take_first(index, &active, &m);
+        vmask same = vtake_same(index, &active, &m);
         sum        = join(sum, all[m]->type->reflect(all[m], wo, wi, n, same));
     }
     return sum;
@@ -47,7 +37,7 @@ vfloat materials_pdf(const material *const *all, vint index, const vvec3 *wo, co
     vfloat sum = { 0 };
     while (vany(active)) {
         int m;
-        vmask same = take_first(index, &active, &m);
+        vmask same = vtake_same(index, &active, &m);
         sum        = sum + all[m]->type->pdf(all[m], wo, wi, n, same);
     }
     return sum;
@@ -58,7 +48,7 @@ vrgb materials_emission(const material *const *all, vint index, vmask active)
     vrgb sum = { 0 };
     while (vany(active)) {
         int m;
-        vmask same = take_first(index, &active, &m);
+        vmask same = vtake_same(index, &active, &m);
         sum        = join(sum, vkeep3(same, vspread(all[m]->emission)));
     }
     return sum;
@@ -69,7 +59,7 @@ vrgb materials_albedo(const material *const *all, vint index, vmask active)
     vrgb sum = { 0 };
     while (vany(active)) {
         int m;
-        vmask same = take_first(index, &active, &m);
+        vmask same = vtake_same(index, &active, &m);
         sum        = join(sum, vkeep3(same, vspread(all[m]->type->albedo(all[m]))));
     }
     return sum;

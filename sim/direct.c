@@ -220,9 +220,8 @@ void direct_one(const scene *s, direct_scratch *w, const direct_batch *b, direct
         vmask left = b->active[k] & (drawn >= 0);
         begin_pick(w, k, &out[k]);
         while (vany(left)) {
-            int l      = lane(drawn, __builtin_ctz((unsigned)vbits(left)));
-            vmask same = left & (drawn == l);
-            left       = left & ~same;
+            int l;
+            vmask same = vtake_same(drawn, &left, &l);
             take(s, w, b, k, l, same, chance, &out[k]);
         }
     }
@@ -241,9 +240,8 @@ vfloat direct_glow_pdf(const scene *s, const vsurface *at, const vvec3 *wi, vint
     vfloat chance = vlight_tree_probability(set->tree, &at->position, &n, index, left);
     vfloat pdf    = { 0 };
     while (vany(left)) {
-        int e      = lane(emitter, __builtin_ctz((unsigned)vbits(left)));
-        vmask same = left & (emitter == e);
-        left       = left & ~same;
+        int e;
+        vmask same = vtake_same(emitter, &left, &e);
         vlight_hit hit;
         const light *l = s->lights[s->light_count + e];
         vmask met      = l->type->hit(l, &at->position, wi, same, &hit);

@@ -91,9 +91,8 @@ static void draw_packet(direct_sensor *w, int i, int k, vuint index, vuint seed,
     vvec3 wi    = { 0 };
     vfloat dist = { 0 };
     for (vmask left = active & (chance > 0.0f); vany(left);) {
-        int l      = lane(w->light[k], __builtin_ctz((unsigned)vbits(left)));
-        vmask same = left & (w->light[k] == l);
-        left       = left & ~same;
+        int l;
+        vmask same = vtake_same(w->light[k], &left, &l);
         vlight_sample lamp;
         vmask lit       = light_sample(s->lights[l], &at.position, u.x, u.y, same, &lamp);
         vfloat response = vsensor_response(w->ask.quantity, &at.normal, &lamp.wi);

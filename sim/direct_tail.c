@@ -160,9 +160,8 @@ static void aim_tail(direct_sensor *w, const vsurface *at, vmask active, int j,
     vvec3 wi    = { 0 };
     vfloat dist = { 0 };
     for (vmask left = active; vany(left);) {
-        int l       = lane(w->light[j], __builtin_ctz((unsigned)vbits(left)));
-        vmask same  = left & (w->light[j] == l);
-        left        = left & ~same;
+        int l;
+        vmask same  = vtake_same(w->light[j], &left, &l);
         wi          = vselect3(same, w->lamps[l].wi, wi);
         dist        = vselect(same, w->lamps[l].dist, dist);
         w->spare[j] = vselect_int(same, vsplat_int(w->s->light_info[l].owner), w->spare[j]);
@@ -175,9 +174,8 @@ static void aim_tail(direct_sensor *w, const vsurface *at, vmask active, int j,
 static void add_tail(direct_sensor *w, int j, vfloat each, vfloat bound, sensor_sum *sums)
 {
     for (vmask left = w->asked[j]; vany(left);) {
-        int l      = lane(w->light[j], __builtin_ctz((unsigned)vbits(left)));
-        vmask same = left & (w->light[j] == l);
-        left       = left & ~same;
+        int l;
+        vmask same = vtake_same(w->light[j], &left, &l);
         direct_add(w, sums, l, vkeep(same & ~w->blocked[j], each), vkeep(same, bound));
     }
 }

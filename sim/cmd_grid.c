@@ -5,6 +5,7 @@
 #include "sim/schedule.h"
 
 #include <limits.h>
+#include <math.h>
 #include <string.h>
 
 static const char *const extensions[] = { ".csv", ".exr" };
@@ -22,6 +23,29 @@ typedef struct totals {
 } totals;
 
 /* ---- as a table ------------------------------------------------------------------------------ */
+
+/* To so many digits, or in whole numbers where these are more: no 1.8e+05 lx. */
+static void print_digits(double x, int digits)
+{
+    double least_whole = pow(10.0, digits) - 0.5;
+    if (fabs(x) < least_whole)
+        printf("%.*g", digits, x);
+    else
+        printf("%.0f", x);
+}
+
+static void print_requirement(const grid_requirement *q)
+{
+    const char *blank = q->unit[0] ? " " : "";
+    printf("  %-10s asked %s", q->name, strcmp(q->name, "maximum") ? "" : "at most ");
+    print_digits(q->asked, 6);
+    printf("%s%s, got ", blank, q->unit);
+    print_digits(q->got, 4);
+    printf(" +- ");
+    print_digits(q->half_width, 2);
+    printf("%s%s: %s%s\n", blank, q->unit, q->met ? "met" : "MISSED",
+           q->decided ? "" : " (not decided at this accuracy: ask for more)");
+}
 
 static void print_table(const scene *s, const grid_result *r, const totals *t)
 {
@@ -44,14 +68,8 @@ static void print_table(const scene *s, const grid_result *r, const totals *t)
 
     grid_requirement asked[MOST_REQUIREMENTS];
     int count = grid_requirements(r, asked);
-    for (int i = 0; i < count; i++) {
-        const grid_requirement *q = &asked[i];
-        const char *blank         = q->unit[0] ? " " : "";
-        printf("  %-10s asked %s%g%s%s, got %.4g +- %.2g%s%s: %s%s\n", q->name,
-               strcmp(q->name, "maximum") ? "" : "at most ", q->asked, blank, q->unit, q->got,
-               q->half_width, blank, q->unit, q->met ? "met" : "MISSED",
-               q->decided ? "" : " (not decided at this accuracy: ask for more)");
-    }
+    for (int i = 0; i < count; i++)
+        print_requirement(&asked[i]);
     if (r->left_out)
         printf("  %d sensor%s left out: inside furniture\n", r->left_out,
                r->left_out > 1 ? "s" : "");

@@ -60,6 +60,23 @@ TEST(requirements_are_met_or_missed)
     folder_free(folder);
 }
 
+/* 160 times the light: 16000 lx below the lamp, and 5656.9 lx aside. */
+TEST(much_light_is_told_without_exponents)
+{
+    char *folder     = folder_new();
+    program_result r = { 0 };
+    folder_write(folder, "study.yaml",
+                 "lux4: 1\nroom: {size: [8, 8, 3], reflectance: 0.5}\n"
+                 "lights: [{type: point, at: [4, 4, 2], intensity: 64000}]\n"
+                 "grids: [{name: g, origin: [3, 3, 0], u: [4, 0, 0], v: [0, 2, 0], spacing: 2,\n"
+                 "         require: {average: 2000000, maximum: 16000}}]\n");
+    LUX4(folder, 0, &r, "grid", "study.yaml");
+    assert_non_null(strstr(r.out, "asked 2000000 lx, got 1"));
+    assert_null(strstr(r.out, "e+0"));
+    program_free(&r);
+    folder_free(folder);
+}
+
 TEST(what_the_accuracy_does_not_decide_is_told)
 {
     char *folder     = folder_new(), require[64];
@@ -196,6 +213,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(requirements_are_met_or_missed),
+        cmocka_unit_test(much_light_is_told_without_exponents),
         cmocka_unit_test(what_the_accuracy_does_not_decide_is_told),
         cmocka_unit_test(lamps_that_are_out_are_no_doubt),
         cmocka_unit_test(a_variant_is_the_study_edited_to_the_bit),

@@ -183,10 +183,11 @@ static int run_one(const command_context *c, const scene *s, int index, totals *
         else
             print_table(s, &r, t);
         if (s->light_count && r.maximum == 0.0)
-            notice_add(c->notices,
-                       "grid %s: no light arrives at all: are its sensors, or the lamps, "
-                       "outside of the room or inside something solid?",
-                       r.grid->name);
+            notice_add(
+                c->notices,
+                "grid %s: no light arrives at all: do its sensors look away, or are they, or "
+                "the lamps, outside of the room or inside something solid?",
+                r.grid->name);
         t->printed++;
         t->averages[index] = r.average;
         for (int k = 0; k < r.sensor_count; k++)

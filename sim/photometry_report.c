@@ -95,7 +95,9 @@ static void text_words(FILE *out, const char *label, const char *value)
 
 static void text_number(FILE *out, const char *label, bool known, int digits, double value)
 {
-    if (known)
+    if (known && value > 0.0 && value < 0.05) /* not as 0.0 */
+        fprintf(out, "  %-34s%.3g\n", label, value);
+    else if (known)
         fprintf(out, "  %-34s%.*f\n", label, digits, value);
     else
         fprintf(out, "  %-34snot stated\n", label);
@@ -121,9 +123,11 @@ static void report_text(FILE *out, const char *file, const photometry *p,
     text_words(out, "luminaire", p->name);
     text_words(out, "catalogue number", p->catalog);
     text_words(out, "lamp", p->lamp);
-    fprintf(out, "  %-34s%s, length %g, width %g, height %g, length along C%g\n", "opening (m)",
-            opening_shape_name(p->opening), (double)p->length, (double)p->width, (double)p->height,
-            (double)p->length_along_deg);
+    fprintf(out, "  %-34s%s", "opening (m)", opening_shape_name(p->opening));
+    if (p->opening != OPENING_POINT)
+        fprintf(out, ", length %g, width %g, height %g", (double)p->length, (double)p->width,
+                (double)p->height);
+    fprintf(out, ", length along C%g\n", (double)p->length_along_deg);
     if (p->absolute)
         fprintf(out, "  %-34sabsolute photometry\n", "lamp flux (lm)");
     else
@@ -133,8 +137,10 @@ static void report_text(FILE *out, const char *file, const photometry *p,
     text_number(out, "light output ratio upward (%)", f->lor_known, 1, 100.0 * f->lor_up);
     text_number(out, "input power (W)", p->watts > 0.0, 1, p->watts);
     text_number(out, "efficacy (lm/W)", p->watts > 0.0, 1, f->efficacy);
-    fprintf(out, "  %-34s%.1f at C %g, gamma %g deg\n", "greatest intensity (cd)", f->maximum_cd,
-            f->maximum_plane_deg, f->maximum_gamma_deg);
+    fprintf(out,
+            f->maximum_cd < 0.05 ? "  %-34s%.3g at C %g, gamma %g deg\n"
+                                 : "  %-34s%.1f at C %g, gamma %g deg\n",
+            "greatest intensity (cd)", f->maximum_cd, f->maximum_plane_deg, f->maximum_gamma_deg);
     fprintf(out, "  %-34s%.1f in C0-C180, %.1f in C90-C270\n", "beam angle, 50 % (deg)",
             f->beam_deg[0], f->beam_deg[1]);
     fprintf(out, "  %-34s%.1f in C0-C180, %.1f in C90-C270\n", "field angle, 10 % (deg)",

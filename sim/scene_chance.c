@@ -263,7 +263,7 @@ static int near_emitters(const scene *s, dvec3 *first_at)
     return count;
 }
 
-static void tell_small_patches(const scene *s, int count, dvec3 first_at, notices *n)
+static void tell_small_patches(const scene *s, int count, const scene_light *first, notices *n)
 {
     char who[80];
     if (s->light_count > MOST_LOOKS)
@@ -272,17 +272,18 @@ static void tell_small_patches(const scene *s, int count, dvec3 first_at, notice
         snprintf(who, sizeof who, "%d light%s", count, count > 1 ? "s" : "");
     bool many = count > 1 || s->light_count > MOST_LOOKS;
     notice_add(n,
-               "%s: %s, first that at (%g, %g, %g) m, shine%s on a surface close by, or on a small "
+               "%s: %s, first `%s` at (%g, %g, %g) m, shine%s on a surface close by, or on a small "
                "spot: what comes back from there is found rarely, intervals are not valid (more "
                "distance helps)",
-               s->study->path, who, first_at.x, first_at.y, first_at.z, many ? "" : "s");
+               s->study->path, who, first->name, first->at.x, first->at.y, first->at.z,
+               many ? "" : "s");
 }
 
 int scene_small_patches(const scene *s, notices *n)
 {
-    int count      = 0;
-    dvec3 first_at = { 0, 0, 0 };
-    losers lost    = { 0 };
+    int count                = 0;
+    const scene_light *first = NULL;
+    losers lost              = { 0 };
     double share = share_to_look_at(s), so_far = 0.0;
     for (int i = 0; i < s->light_count; i++) {
         const scene_light *info = &s->light_info[i];
@@ -297,13 +298,14 @@ int scene_small_patches(const scene *s, notices *n)
             (!shines_on_near(&around, reach) && !makes_small_spot(s, s->lights[i], at, reach)))
             continue;
         if (count++ == 0)
-            first_at = info->at;
+            first = info;
     }
     tell_reaching_out(s, n);
     tell_lost_light(s, &lost, n);
     if (count)
-        tell_small_patches(s, count, first_at, n);
-    int glowing = near_emitters(s, &first_at);
+        tell_small_patches(s, count, first, n);
+    dvec3 first_at = { 0, 0, 0 };
+    int glowing    = near_emitters(s, &first_at);
     if (glowing)
         notice_add(
             n,

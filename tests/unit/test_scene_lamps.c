@@ -186,7 +186,8 @@ TEST(of_very_many_lamps_those_that_matter_are_looked_at)
         "grids: [{name: g, on: floor, spacing: 100}]\n");
     assert_int_equal(s->light_count, 20001);
     assert_int_equal(s->small_patches, 1);
-    assert_said("study.yaml: at least 1 of 20001 lights, first that at (0.01, 200, 50) m, shine ");
+    assert_said(
+        "study.yaml: at least 1 of 20001 lights, first `point` at (0.01, 200, 50) m, shine ");
 }
 
 /* Half of what is around a lamp in the ceiling is nothing; 1 cm below it nothing is lost. */

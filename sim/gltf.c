@@ -1,7 +1,6 @@
 /* sim/gltf.c -- see gltf.h. The steps in order; extensions; what the user is told. */
 #include "sim/gltf_source.h"
 
-#include <assert.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -160,15 +159,6 @@ static bool read_all(reader *r, gltf_file *f, source *s, const char *path, lux_e
            check_version(r, err) && check_extensions(r, err) && gltf_file_buffers(f, err) &&
            accessors_check(r, err) && check_cameras(r, err) && read_lights(r, err) &&
            read_materials(r, err) && read_meshes(r, err) && read_nodes(r, err);
-}
-
-bool gltf_node_below(const gltf *g, uint32_t node, uint32_t ancestor)
-{
-    assert(node < g->node_count);
-    int64_t at = node;
-    while (at >= 0 && at != ancestor)
-        at = g->nodes[at].parent;
-    return at >= 0;
 }
 
 const gltf *gltf_read(arena *a, const char *path, notices *n, lux_error *err)

@@ -118,10 +118,6 @@ typedef struct gltf {
  * Positions are finite, each placed one may still be too large for a float. */
 const gltf *gltf_read(arena *a, const char *path, notices *n, lux_error *err);
 
-/* Whether a node, by its index in g->nodes, is the ancestor, by its own, or hangs below it: so
- * many steps as it is deep. */
-bool gltf_node_below(const gltf *g, uint32_t node, uint32_t ancestor);
-
 #ifdef __cplusplus
 }
 #endif

@@ -13,6 +13,10 @@ typedef struct mesh {
     const uint32_t *corners;  /* 3 a triangle, each < position_count */
     const uint32_t *material; /* 1 a triangle; NULL: all 0 */
     uint32_t position_count, triangle_count;
+
+    /* Of each corner of each triangle, 3 a triangle; NULL: none */
+    const float *texcoord[2]; /* (u, v) of each set, finite */
+    const vec3 *normals;      /* unit, toward the front; (0, 0, 0): the triangle's own */
 } mesh;
 
 #endif

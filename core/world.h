@@ -27,7 +27,8 @@ typedef struct world world;
 typedef struct world_instance {
     uint32_t mesh;   /* < mesh_count */
     transform place; /* mesh to world; any mirroring or scale, determinant not 0 */
-    bool hollow;     /* its triangles let light through: all_hits goes on behind them */
+    bool hollow;     /* its triangles let light through: any_hit does not see them, and all_hits
+                        goes on behind them */
     int32_t owner; /* >= 1: part of the body of that number, which any_hit may spare; 0: of none */
 } world_instance;
 
@@ -82,9 +83,9 @@ typedef enum ray_hint {
 void world_first_hit(const world *w, const vray *rays, const vmask *active, int packets,
                      ray_hint hint, vhit *hits);
 
-/* Whether each ray meets any surface: in blocked, only lanes of active. Instances whose owner is
- * that in the ray's lane of spare do not count, so that a lamp's light leaves its own body; 0
- * spares nothing, and nor does spare NULL. */
+/* Whether each ray meets any surface that is not hollow: in blocked, only lanes of active.
+ * Instances whose owner is that in the ray's lane of spare do not count, so that a lamp's light
+ * leaves its own body; 0 spares nothing, and nor does spare NULL. */
 void world_any_hit(const world *w, const vray *rays, const vmask *active, const vint *spare,
                    int packets, ray_hint hint, vmask *blocked);
 
@@ -93,6 +94,10 @@ void world_any_hit(const world *w, const vray *rays, const vmask *active, const 
  * if some ray meets more than `most` before it is stopped: it then has the nearest ones. */
 bool world_all_hits(const world *w, const vray *rays, const vmask *active, int packets, int most,
                     vhit *hits);
+
+/* Hollow instances alone, as if the others were not there. */
+bool world_hollow_hits(const world *w, const vray *rays, const vmask *active, int packets, int most,
+                       vhit *hits);
 
 /* The same as if all instances were hollow: whatever lies on the ray's line within its reach. */
 bool world_every_hit(const world *w, const vray *rays, const vmask *active, int packets, int most,
@@ -109,6 +114,22 @@ typedef struct vsurface {
 
 /* Lanes outside active, or without a hit, are zero. */
 void world_surface(const world *w, const vhit *hit, vmask active, vsurface *out);
+
+/* What else the mesh says of a hit's place. */
+typedef struct vdetail {
+    vfloat u[2], v[2]; /* texture coordinates of each set; 0 where the mesh has none */
+    vfloat scale[2];   /* how many units of set k a metre along the surface is: the root of the
+                          triangle's area in texture coordinates over its area in m^2; 0: none */
+    vvec3 normal;      /* unit, on the front side: between those of the corners; the triangle's own
+                          where the mesh has none */
+    vvec3 along_u[2];  /* unit, in the triangle's plane, where set k's u grows; 0 where that is
+                          nowhere */
+    vmask mirrored[2]; /* set k lies on the front side as in a mirror: v grows along
+                          normal x along_u; else against it (a picture upright has v downward) */
+} vdetail;
+
+/* Lanes outside active, or without a hit, are zero. */
+void world_detail(const world *w, const vhit *hit, vmask active, vdetail *out);
 
 /* Where a ray toward `direction` may start without meeting the surface that it leaves: moved off
  * along the normal, to the side of direction, by what the error of the position needs. A ray to

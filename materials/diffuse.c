@@ -5,60 +5,50 @@
  * Directions are drawn in proportion to the cosine, pdf = cos / pi, so that the weight is rho.
  */
 #include "core/warp.h"
-#include "materials/material.h"
+#include "materials/material_parts.h"
 
-typedef struct diffuse {
-    material base;
-    vec3 reflectance; /* [0, 1] */
-} diffuse;
-
-static vmask diffuse_scatter(const material *self, const vvec3 *wo, const vvec3 *n, vfloat s,
-                             vfloat t, vmask active, vscatter *out)
+static vmask diffuse_scatter(const material *self, const vshading *s, vfloat u, vfloat v,
+                             vfloat pick, vmask active, vscatter *out)
 {
-    (void)wo;
-    out->wi     = vkeep3(active, vwarp_cosine_about(*n, s, t));
-    out->weight = vkeep3(active, vspread(((const diffuse *)self)->reflectance));
+    (void)pick;
+    out->wi       = vkeep3(active, vwarp_cosine_about(s->n, u, v));
+    out->weight   = vkeep3(active, look_color(self, s));
+    out->pdf      = vkeep(active, vwarp_cosine_pdf(vdot(out->wi, s->n)));
+    out->straight = out->bent = (vmask){ 0 };
     return active;
 }
 
-static vrgb diffuse_reflect(const material *self, const vvec3 *wo, const vvec3 *wi, const vvec3 *n,
-                            vmask active)
+static vrgb diffuse_reflect(const material *self, const vshading *s, const vvec3 *wi, vmask active,
+                            vfloat *pdf)
 {
-    (void)wo;
-    vfloat cosine = vdot(*wi, *n);
+    vfloat cosine = vdot(*wi, s->n);
     vmask lit     = active & (cosine > 0.0f);
-    vrgb rho      = vspread(((const diffuse *)self)->reflectance);
-    return vkeep3(lit, vscale(rho, 0.318309886f * cosine));
+    if (pdf)
+        *pdf = vkeep(lit, vwarp_cosine_pdf(cosine));
+    return vkeep3(lit, vscale(look_color(self, s), 0.318309886f * cosine));
 }
 
-static vfloat diffuse_pdf(const material *self, const vvec3 *wo, const vvec3 *wi, const vvec3 *n,
-                          vmask active)
+static vrgb diffuse_albedo(const material *self, const vshading *s, vmask active)
 {
-    (void)self, (void)wo;
-    return vkeep(active, vwarp_cosine_pdf(vdot(*wi, *n)));
+    return vkeep3(active, look_color(self, s));
 }
-
-static vec3 diffuse_albedo(const material *self) { return ((const diffuse *)self)->reflectance; }
 
 static const material_type diffuse_type = { .name    = "diffuse",
                                             .scatter = diffuse_scatter,
                                             .reflect = diffuse_reflect,
-                                            .pdf     = diffuse_pdf,
                                             .albedo  = diffuse_albedo };
 
 const material *material_diffuse(arena *a, const diffuse_desc *d, lux_error *err)
 {
-    vec3 r = d->reflectance;
-    if (!(v3_nonnegative(r) && r.x <= 1 && r.y <= 1 && r.z <= 1))
-        return failed(err, ERR_ARGUMENT, "diffuse material: reflectance %g %g %g is not in [0, 1]",
-                      (double)r.x, (double)r.y, (double)r.z);
-    if (!v3_nonnegative(d->emission))
-        return failed(err, ERR_ARGUMENT, "diffuse material: an emission is not >= 0 W/(sr m^2)");
-
-    diffuse *m = arena_new(a, diffuse, err);
+    static const char name[] = "diffuse material";
+    if (!share_valid(name, "reflectance", d->reflectance, err) ||
+        !extra_valid(name, &d->extra, err))
+        return NULL;
+    material *m = arena_new(a, material, err);
     if (!m)
         return NULL;
-    m->base        = (material){ &diffuse_type, d->emission };
-    m->reflectance = r;
-    return &m->base;
+    material_begin(m, &diffuse_type, d->reflectance, &d->extra);
+    m->reflectance = v3_mul(d->reflectance, textures_mean_color(d->extra.textures));
+    m->matt        = true;
+    return m;
 }

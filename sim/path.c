@@ -158,6 +158,11 @@ static vfloat power_heuristic(vfloat a, vfloat b)
     return vselect(b > 0.0f, 1.0f / (1.0f + ratio * ratio), vsplat(1.0f));
 }
 
+static vshading shading_of(const path_tracer *t, int k)
+{
+    return (vshading){ .wo = load3(t, CAME, k), .n = t->at[k].normal, .flat = t->at[k].normal };
+}
+
 /* Of the lights that were drawn: how much each counts, where the path might find it too. */
 static vfloat light_share(const path_tracer *t, int k, bool beginning)
 {
@@ -166,10 +171,12 @@ static vfloat light_share(const path_tracer *t, int k, bool beginning)
     vmask glows          = t->active[k] & (l->light >= t->s->light_count);
     if (!vany(glows))
         return vsplat(1.0f);
-    vvec3 wo = load3(t, CAME, k);
-    vfloat pdf =
-        beginning ? vsensor_pdf(t->o->quantity, &at->normal, &l->wi)
-                  : materials_pdf(t->s->materials, at->material, &wo, &l->wi, &at->normal, glows);
+    vshading here = shading_of(t, k);
+    vfloat pdf;
+    if (beginning)
+        pdf = vsensor_pdf(t->o->quantity, &at->normal, &l->wi);
+    else
+        materials_reflect(t->s->materials, at->material, &here, &l->wi, glows, &pdf);
     return vselect(glows, power_heuristic(l->pdf, pdf), vsplat(1.0f));
 }
 
@@ -182,9 +189,9 @@ static void add_lights(path_tracer *t, int k, bool beginning)
         vfloat response = vsensor_response(t->o->quantity, &at->normal, &l->wi);
         add(t, true, k, vkeep3(t->active[k], vscale(e, response)), l->light);
     } else {
-        vvec3 wo = load3(t, CAME, k);
-        vrgb f   = materials_reflect(t->s->materials, at->material, &wo, &l->wi, &at->normal,
-                                     t->active[k]);
+        vshading here = shading_of(t, k);
+        vrgb f =
+            materials_reflect(t->s->materials, at->material, &here, &l->wi, t->active[k], NULL);
         vrgb all = vscale(vmul(load3(t, WORTH, k), vmul(f, e)), first_of(t, k));
         add(t, false, k, vkeep3(t->active[k], all), l->light);
     }
@@ -235,7 +242,7 @@ static void add_glow(path_tracer *t, bool straight)
     for (int k = 0; k < packets_of(t); k++) {
         vmask active = (vlane_index() + k * LANES) < t->alive;
         vint which   = vload_int(t->material + k * LANES);
-        vrgb glow    = materials_emission(s->materials, which, active);
+        vrgb glow    = materials_emission(s->materials, which, NULL, active);
         vmask bright = active & ((glow.x > 0.0f) | (glow.y > 0.0f) | (glow.z > 0.0f));
         if (!vany(bright))
             continue;
@@ -259,7 +266,7 @@ static void note_what_is_met(path_tracer *t)
     for (int k = 0; k < packets_of(t); k++) {
         vmask active = (vlane_index() + k * LANES) < t->alive;
         vint which   = vload_int(t->material + k * LANES);
-        vfloat back  = vrgb_luminance(materials_albedo(t->s->materials, which, active));
+        vfloat back  = vrgb_luminance(materials_reflectance(t->s->materials, which, active));
         for (int bits = vbits(active & (back > 0.0f)); bits; bits &= bits - 1)
             t->b->met[t->id[k * LANES + __builtin_ctz((unsigned)bits)]] = 1.0f;
     }
@@ -286,10 +293,10 @@ static vmask next_direction(path_tracer *t, int k, vvec3 *wi, vfloat *pdf)
     const scene *s     = t->s;
     const vsample4 *u  = &t->sample[k];
     const vsurface *at = &t->at[k];
-    vvec3 wo           = load3(t, CAME, k);
+    vshading here      = shading_of(t, k);
     vscatter next;
-    vmask goes = materials_scatter(s->materials, at->material, &wo, &at->normal, u->x, u->y,
-                                   t->active[k], &next);
+    vmask goes =
+        materials_scatter(s->materials, at->material, &here, u->x, u->y, u->z, t->active[k], &next);
     vrgb worth = vmul(load3(t, WORTH, k), next.weight);
 
     /* Roulette: a path goes on as often as it is worth going */
@@ -297,9 +304,8 @@ static vmask next_direction(path_tracer *t, int k, vvec3 *wi, vfloat *pdf)
     vfloat survival = vmin(most, vsplat(surest_survival));
     goes            = goes & (u->w < survival);
     store3(t, WORTH, k, vscale(worth, 1.0f / survival));
-    *wi = next.wi;
-    if (s->emitter_count > 0)
-        *pdf = materials_pdf(s->materials, at->material, &wo, wi, &at->normal, goes);
+    *wi  = next.wi;
+    *pdf = next.pdf;
     return goes;
 }
 

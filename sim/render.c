@@ -178,7 +178,7 @@ static void begin_paths(view_run_state *v, view_scratch *w, const sample_id *ids
         world_surface(v->s->world, &w->hits[k], met, &at);
         vmask back  = vdot(w->rays[k].direction, at.normal) > 0.0f;
         vvec3 n     = vselect3(back, vneg(at.normal), at.normal);
-        vrgb albedo = materials_albedo(v->s->materials, at.material, met);
+        vrgb albedo = materials_reflectance(v->s->materials, at.material, met);
         for (int i = 0; i < LANES && k * LANES + i < count; i++) {
             int at_sample = k * LANES + i;
             bool seen     = vbits(met) >> i & 1;
@@ -194,7 +194,7 @@ static void begin_paths(view_run_state *v, view_scratch *w, const sample_id *ids
             b->seed[p]  = seed_of(v, &ids[at_sample]);
         }
         if (v->s->glows)
-            add_emitted(v, values, k, count, materials_emission(v->s->materials, at.material, met),
+            add_emitted(v, values, k, count, materials_emission(v->s->materials, at.material, NULL, met),
                         v->s->glow_group, v->s->glow_dimming);
         for (int l = 0; l < w->before; l++)
             add_lamp(v, w, values, k, count, w->lamps[l]);

@@ -50,7 +50,7 @@ static void look_around(const scene *s, const light *l, vec3 at, surroundings *o
         world_first_hit(s->world, &ray, &active, 1, RAYS_INCOHERENT, &hit);
         vmask met = hit.instance >= 0;
         world_surface(s->world, &hit, met, &there);
-        vrgb albedo = materials_albedo(s->materials, there.material, met);
+        vrgb albedo = materials_reflectance(s->materials, there.material, met);
 
         /* Irradiance at 1 m from its centre is the intensity that way */
         vvec3 beside = vadd(vspread(at), ray.direction);
@@ -111,7 +111,7 @@ static bool makes_small_spot(const scene *s, const light *l, vec3 at, double rea
     world_first_hit(s->world, &ray, &active, 1, RAYS_COHERENT, &hit);
     vmask met = active & (hit.instance >= 0);
     world_surface(s->world, &hit, met, &there);
-    float back = lane(vrgb_luminance(materials_albedo(s->materials, there.material, met)), 0);
+    float back = lane(vrgb_luminance(materials_reflectance(s->materials, there.material, met)), 0);
     double d   = vany(met) ? (double)lane(hit.distance, 0) : 0.0;
     return back > 0.0f && flux / peak * d * d < 2.0 * M_PI * reach * reach;
 }

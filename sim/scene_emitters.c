@@ -6,7 +6,7 @@
 static bool glows(const scene_build *b, const mesh *m, uint32_t t)
 {
     const material *const *all = b->materials.items;
-    vec3 e                     = all[m->material ? m->material[t] : 0]->emission;
+    vec3 e                     = all[m->material ? m->material[t] : 0]->look.emission;
     return e.x > 0.0f || e.y > 0.0f || e.z > 0.0f;
 }
 
@@ -23,7 +23,7 @@ static bool add_triangle(scene_build *b, const mesh *m, const world_instance *in
                          int32_t *number)
 {
     const material *const *all = b->materials.items;
-    triangle_desc d            = { .radiance = all[m->material ? m->material[t] : 0]->emission };
+    triangle_desc d            = { .radiance = all[m->material ? m->material[t] : 0]->look.emission };
     dvec3 p[3];
     for (int c = 0; c < 3; c++) {
         p[c] = transform_point(&in->place, d3_from(m->positions[m->corners[3 * t + (uint32_t)c]]));

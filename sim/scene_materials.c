@@ -33,7 +33,8 @@ static bool add(scene_build *b, const char *name, vec3 reflectance, vec3 emissio
         }
     }
     reflectance          = bounded(b, reflectance, used);
-    diffuse_desc d       = { reflectance, v3_scale(emission, 1.0f / (float)LUMENS_PER_WATT) };
+    diffuse_desc d       = { .reflectance    = reflectance,
+                             .extra.emission = v3_scale(emission, 1.0f / (float)LUMENS_PER_WATT) };
     const material **m   = list_new(&b->materials, b->a, const material *, b->err);
     scene_material *info = list_new(&b->material_info, b->a, scene_material, b->err);
     const material *made = m && info ? material_diffuse(b->a, &d, b->err) : NULL;

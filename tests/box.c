@@ -52,7 +52,8 @@ const scene *box_scene(arena *a, dvec3 size, const vec3 reflectance[ROOM_MATERIA
 
     bool glows = false;
     for (int i = 0; i < ROOM_MATERIALS; i++) {
-        m[i] = material_diffuse(a, &(diffuse_desc){ reflectance[i], emission[i] }, NULL);
+        m[i] = material_diffuse(a, &(diffuse_desc){ reflectance[i], { .emission = emission[i] } },
+                                NULL);
         assert_non_null(m[i]);
         glows |= emission[i].x > 0.0f;
     }

@@ -1,0 +1,25 @@
+/* materials/material_parts.h -- what the makers of materials share; only materials/ includes it. */
+#ifndef MATERIALS_MATERIAL_PARTS_H
+#define MATERIALS_MATERIAL_PARTS_H
+
+#include "materials/material.h"
+
+/* A field of the look at each point: as textures make it, or the constant. */
+static inline vrgb look_color(const material *m, const vshading *s)
+{
+    return m->textures ? s->look.color : vspread(m->look.color);
+}
+
+/* Whether each channel is in [0, 1]; whether extra's fields are in their ranges: else false with
+ * *err, which begins with the material's name. */
+bool share_valid(const char *material_name, const char *what, vec3 share, lux_error *err);
+bool extra_valid(const char *material_name, const material_extra *extra, lux_error *err);
+
+/* Sets type, look (color, extra's emission and openness, and else 1) and textures. */
+void material_begin(material *m, const material_type *type, vec3 color,
+                    const material_extra *extra);
+
+/* The mean of a texture of the base colour; white where there is none. */
+vec3 textures_mean_color(const material_textures *t);
+
+#endif

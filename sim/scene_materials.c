@@ -53,7 +53,7 @@ static void tell_what_is_left_out(scene_build *b, const char *file, const gltf_m
                    "%s: material \"%s\": gloss and metal are not supported yet: taken as matt, its "
                    "base colour as reflectance",
                    file, name);
-    if (m->transmission > 0.0f || m->cut)
+    if (m->transmission > 0.0f || m->alpha < 1.0f)
         notice_add(b->notices,
                    "%s: material \"%s\": transparency is not supported yet: taken as opaque", file,
                    name);

@@ -16,16 +16,16 @@
 
 /* Colours are means over textures, and of what is there where there are holes. */
 typedef struct scene_material {
-    const char *name;    /* "room: walls" for those of the room */
-    const char *kind;    /* material_type.name */
-    const char *file;    /* of a measured table; NULL */
-    vec3 reflectance;    /* of diffuse light, on the front side */
-    vec3 transmittance;  /* of diffuse light, straight and scattered */
-    vec3 emission;       /* cd/m^2 */
+    const char *name;     /* "room: walls" for those of the room */
+    const char *kind;     /* material_type.name */
+    const char *file;     /* of a measured table; NULL */
+    vec3 reflectance;     /* of diffuse light, on the front side */
+    vec3 transmittance;   /* of diffuse light, straight and scattered */
+    vec3 emission;        /* cd/m^2 */
     bool textured, bumpy; /* it has textures; a normal map */
-    bool holes, box;     /* it has holes; of closed boxes of glass, each taken as one pane */
-    bool overridden;     /* by the study's materials */
-    bool used;           /* some surface is made of it */
+    bool holes, box;      /* it has holes; of closed boxes of glass, each taken as one pane */
+    bool overridden;      /* by the study's materials */
+    bool used;            /* some surface is made of it */
 } scene_material;
 
 typedef struct scene_light {
@@ -96,8 +96,8 @@ typedef struct scene {
 
     bool reflects;     /* some surface does */
     bool glows;        /* some surface emits light */
-    double glow_watts; /* W, not dimmed, of glowing surfaces that are no emitters: they have textures
-                          of emission or alpha, and only rays find them */
+    double glow_watts; /* W, not dimmed, of glowing surfaces that are no emitters: they have
+                          textures of emission or alpha, and only rays find them */
     bool textured;     /* some surface has textures */
     bool smooth;       /* some mesh has normals of its own */
     bool hollow;       /* some surface lets light go straight through */

@@ -70,7 +70,7 @@ static bool number_places(plate_work *w, arena *a, lux_error *err)
     qsort(corners, n, sizeof *corners, by_place);
     for (uint32_t i = 0; i < n; i++) {
         vec3 p = corners[i].at, q = corners[i ? i - 1 : 0].at;
-        bool same = i > 0 && p.x == q.x && p.y == q.y && p.z == q.z;
+        bool same                      = i > 0 && p.x == q.x && p.y == q.y && p.z == q.z;
         w->place_of[corners[i].vertex] = same ? w->place_of[corners[i - 1].vertex] : i;
     }
     return true;
@@ -109,8 +109,8 @@ static edge *make_edges(const plate_work *w, arena *a, lux_error *err)
         const uint32_t *c = &w->m->corners[3 * (size_t)w->chosen[i]];
         for (int k = 0; k < 3; k++) {
             uint32_t p = w->place_of[c[k]], q = w->place_of[c[(k + 1) % 3]];
-            *next++ = (edge){ material_of(w->m, w->chosen[i]), p < q ? p : q, p < q ? q : p, i,
-                              p < q };
+            *next++ =
+                (edge){ material_of(w->m, w->chosen[i]), p < q ? p : q, p < q ? q : p, i, p < q };
         }
     }
     if (edges)
@@ -143,8 +143,8 @@ static void measure(plate_work *w, uint32_t i)
         p[k] = transform_point(w->place, d3_from(w->m->positions[c[k]]));
         if (to->area == 0.0 && k == 0)
             to->from = to->to = p[0];
-        to->from = (dvec3){ fmin(to->from.x, p[k].x), fmin(to->from.y, p[k].y),
-                            fmin(to->from.z, p[k].z) };
+        to->from =
+            (dvec3){ fmin(to->from.x, p[k].x), fmin(to->from.y, p[k].y), fmin(to->from.z, p[k].z) };
         to->to = (dvec3){ fmax(to->to.x, p[k].x), fmax(to->to.y, p[k].y), fmax(to->to.z, p[k].z) };
     }
     /* From the body's own corner, so that what is far away loses no digits */
@@ -212,15 +212,16 @@ static bool look_at_mesh(const mesh *m, const transform *place, const bool *cand
 
 const glass_shapes *glass_shapes_of(scene_build *b, const gltf *g, const bool *candidate)
 {
-    glass_shapes *found      = arena_array(b->a, glass_shapes, g->material_count, b->err);
-    const transform **placed = arena_array(b->a, const transform *, (size_t)g->mesh_count + 1,
-                                           b->err);
+    glass_shapes *found = arena_array(b->a, glass_shapes, g->material_count, b->err);
+    const transform **placed =
+        arena_array(b->a, const transform *, (size_t)g->mesh_count + 1, b->err);
     if (!found || !placed)
         return NULL;
     for (uint32_t k = g->placement_count; k > 0; k--)
         placed[g->placements[k - 1].mesh] = &g->placements[k - 1].place;
     for (uint32_t m = 0; m < g->mesh_count; m++)
-        if (placed[m] && !look_at_mesh(&g->meshes[m].triangles, placed[m], candidate, found, b->err))
+        if (placed[m] &&
+            !look_at_mesh(&g->meshes[m].triangles, placed[m], candidate, found, b->err))
             return NULL;
     return found;
 }

@@ -28,10 +28,10 @@
 #include "core/color.h"
 #include "sim/scene_build.h"
 
-static const float smooth = 0.03f;         /* a roughness that nobody sees in a pane */
-static const float rough  = 0.999f;        /* 1 as a slider gives it */
-static const float least_ior = 1.0001f, most_ior = 4.0f; /* that makers of glass take */
-static const float most_absorption = 1e9f; /* 1/m: black */
+static const float smooth          = 0.03f;   /* a roughness that nobody sees in a pane */
+static const float rough           = 0.999f;  /* 1 as a slider gives it */
+static const float least_ior       = 1.0001f; /* that makers of glass take */
+static const float most_absorption = 1e9f;    /* 1/m: black */
 
 /* ---- what a material is ---------------------------------------------------------------------- */
 
@@ -125,13 +125,13 @@ static const material *make_solid(scene_build *b, const material_source *s)
     const material_textures *t = textures_of(m);
     vec3 c                     = m->attenuation_color;
     double distance            = (double)m->attenuation_distance * s->scale;
-    dielectric_desc d          = { .ior        = fminf(fmaxf(m->ior, least_ior), most_ior),
-                                   .absorption = { absorption_of(c.x, distance),
-                                                   absorption_of(c.y, distance),
-                                                   absorption_of(c.z, distance) },
-                                   .tint  = v3_scale(m->base_color,
-                                                     clearness(m) * mean_of(&t->transmission).x),
-                                   .extra = material_extra_of(m) };
+    dielectric_desc d          = {
+                 .ior        = fmaxf(m->ior, least_ior),
+                 .absorption = { absorption_of(c.x, distance), absorption_of(c.y, distance),
+                                 absorption_of(c.z, distance) },
+                 .tint       = v3_scale(m->base_color, clearness(m) * mean_of(&t->transmission).x),
+                 .extra      = material_extra_of(m)
+    };
     tell(b, s, true,
          "a solid that refracts: what is seen through it is bent, but the light of lamps is taken "
          "to pass it straight");
@@ -149,7 +149,7 @@ static const material *make_pane(scene_build *b, const material_source *s, scene
 {
     const gltf_material *m = s->from;
     const glass_shapes *g  = s->glass;
-    float ior              = fminf(fmaxf(m->ior, least_ior), most_ior);
+    float ior              = fmaxf(m->ior, least_ior);
     info->box              = g->plates && !g->bodies && !g->open;
     pane_desc d            = { .transmittance = v3_scale(m->base_color, most_of_pane((double)ior)),
                                .ior           = ior,
@@ -171,7 +171,7 @@ static const material *make_gloss(scene_build *b, const material_source *s)
                                .metallic       = m->metallic,
                                .roughness      = m->roughness,
                                .transmission   = m->transmission,
-                               .ior            = fminf(m->ior, most_ior),
+                               .ior            = m->ior,
                                .specular       = m->specular,
                                .specular_color = m->specular_color,
                                .extra          = material_extra_of(m) };
@@ -182,7 +182,6 @@ static const material *make_gloss(scene_build *b, const material_source *s)
 
 const material *material_of_gltf(scene_build *b, const material_source *s, scene_material *info)
 {
-    tell(b, s, s->from->ior > most_ior, "an index of refraction above 4 is taken as 4");
     if (is_matt(s->from))
         return make_matt(b, s);
     if (is_solid(s->from))

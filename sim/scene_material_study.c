@@ -20,10 +20,9 @@ static bool keep_extra(scene_build *b, const gltf_material *from, material_extra
     material_textures *kept = arena_new(b->a, material_textures, b->err);
     if (!kept)
         return false;
-    *kept           = (material_textures){ .emission     = t->emission,
-                                           .normal_scale = 1.0f,
-                                           .alpha        = t->alpha,
-                                           .cutoff       = t->cutoff };
+    *kept = (material_textures){
+        .emission = t->emission, .normal_scale = 1.0f, .alpha = t->alpha, .cutoff = t->cutoff
+    };
     kept->alpha_only = true;
     if (t->alpha != ALPHA_OPAQUE)
         kept->base = t->base;
@@ -42,9 +41,8 @@ static const material *make_matt(scene_build *b, const material_source *s,
     vec3 d = m->reflectance, k = m->specular;
     vec3 sum     = { d.x + k.x, d.y + k.y, d.z + k.z };
     vec3 bounded = material_bounded(b, s, sum, white);
-    vec3 share   = { sum.x > 0.0f ? bounded.x / sum.x : 1.0f,
-                     sum.y > 0.0f ? bounded.y / sum.y : 1.0f,
-                     sum.z > 0.0f ? bounded.z / sum.z : 1.0f };
+    vec3 share = { sum.x > 0.0f ? bounded.x / sum.x : 1.0f, sum.y > 0.0f ? bounded.y / sum.y : 1.0f,
+                   sum.z > 0.0f ? bounded.z / sum.z : 1.0f };
     if (isnan(m->exponent) || !(k.x > 0.0f || k.y > 0.0f || k.z > 0.0f))
         return material_diffuse(b->a, &(diffuse_desc){ v3_mul(d, share), *extra }, b->err);
     phong_desc p = { .reflectance = v3_mul(d, share),
@@ -77,11 +75,10 @@ static const material *make_pane(scene_build *b, const material_source *s,
                                  const material_extra *extra, scene_material *info)
 {
     const study_material *m = s->instead;
-    pane_desc d             = { .transmittance = m->transmittance,
-                                .ior           = (float)m->ior,
-                                .box           = m->box,
-                                .extra         = *extra };
-    info->box               = m->box;
+    pane_desc d             = {
+                    .transmittance = m->transmittance, .ior = (float)m->ior, .box = m->box, .extra = *extra
+    };
+    info->box = m->box;
     tell_of_boxes(b, s);
     return material_pane(b->a, &d, b->err);
 }
@@ -107,12 +104,11 @@ static const material *make_measured(scene_build *b, const material_source *s,
     if (!table)
         return NULL;
     if (m->surface == SURFACE_BSDF)
-        return material_bsdf(b->a,
-                             &(bsdf_desc){ .data          = table,
-                                           .up            = up,
-                                           .front_outside = m->front_outside,
-                                           .extra         = *extra },
-                             b->err);
+        return material_bsdf(
+            b->a,
+            &(bsdf_desc){
+                .data = table, .up = up, .front_outside = m->front_outside, .extra = *extra },
+            b->err);
     return material_brdf(b->a, &(brdf_desc){ .table = table, .up = up, .extra = *extra }, b->err);
 }
 

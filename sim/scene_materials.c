@@ -95,13 +95,13 @@ static bool add_side(scene_build *b, const char *name, vec3 reflectance)
     gltf_material *m = arena_new(b->a, gltf_material, b->err);
     if (!m)
         return false;
-    *m = (gltf_material){ .name           = name,
-                          .base_color     = reflectance,
-                          .alpha          = 1.0f,
-                          .roughness      = 1.0f,
-                          .ior            = 1.5f,
-                          .specular       = 1.0f,
-                          .specular_color = { 1, 1, 1 } };
+    *m                      = (gltf_material){ .name           = name,
+                                               .base_color     = reflectance,
+                                               .alpha          = 1.0f,
+                                               .roughness      = 1.0f,
+                                               .ior            = 1.5f,
+                                               .specular       = 1.0f,
+                                               .specular_color = { 1, 1, 1 } };
     const glass_shapes open = { .open = 1 };
     return add(b, &(material_source){ .file    = b->study->path,
                                       .from    = m,
@@ -114,9 +114,9 @@ static bool add_side(scene_build *b, const char *name, vec3 reflectance)
 static bool add_room(scene_build *b)
 {
     const study_room *r = &b->study->room;
-    return !r->given || (add_side(b, "room: ceiling", r->ceiling) &&
-                         add_side(b, "room: walls", r->walls) &&
-                         add_side(b, "room: floor", r->floor));
+    return !r->given ||
+           (add_side(b, "room: ceiling", r->ceiling) && add_side(b, "room: walls", r->walls) &&
+            add_side(b, "room: floor", r->floor));
 }
 
 /* Which materials of a file some placed triangle is made of: the others are not worth a word. */
@@ -156,8 +156,8 @@ static bool add_file(scene_build *b, int i)
     bool *panes      = used ? arena_array(b->a, bool, g->material_count, b->err) : NULL;
     for (uint32_t k = 0; panes && k < g->material_count; k++) {
         const study_material *instead = match(b, g->materials[k].name);
-        panes[k] = used[k] && (instead ? instead->surface == SURFACE_PANE
-                                       : gltf_material_is_pane(&g->materials[k]));
+        panes[k]                      = used[k] && (instead ? instead->surface == SURFACE_PANE
+                                                            : gltf_material_is_pane(&g->materials[k]));
     }
     const glass_shapes *glass = panes ? glass_shapes_of(b, g, panes) : NULL;
     for (uint32_t k = 0; glass && k < g->material_count; k++) {

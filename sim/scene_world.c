@@ -196,7 +196,7 @@ static bool keep_triangles(scene_build *b, const world_parts *w, const half *h, 
         if (!is_of(w, h, t))
             continue;
         for (int c = 0; c < 3; c++) {
-            size_t from = 3 * (size_t)t + (size_t)c;
+            size_t from                                             = 3 * (size_t)t + (size_t)c;
             to->corners[3 * (size_t)to->triangle_count + (size_t)c] = m->corners[from];
             bake_attributes(to, c, m, from, &unturned);
         }
@@ -266,8 +266,8 @@ static bool add_instances(scene_build *b, world_parts *w, int i)
         for (int which = 0; which < HALVES; which++) {
             half h = half_of(w, &g->meshes[m].triangles, b->first_material[i], which);
             dvec3 moved;
-            if (h.count && !(keep_mesh(b, w, &h, &moved) &&
-                             add_places(b, w, i, m, moved, which == HOLLOW)))
+            if (h.count &&
+                !(keep_mesh(b, w, &h, &moved) && add_places(b, w, i, m, moved, which == HOLLOW)))
                 return false;
         }
     }
@@ -305,8 +305,7 @@ static bool make_common(scene_build *b, const baked_size *size, baked *to)
     if (!to->positions || !to->corners || !to->material)
         return false;
     for (int k = 0; k < 2; k++)
-        if (size->texcoord[k] &&
-            !(to->texcoord[k] = arena_array(b->a, float, 2 * corners, b->err)))
+        if (size->texcoord[k] && !(to->texcoord[k] = arena_array(b->a, float, 2 * corners, b->err)))
             return false;
     return !size->normals || (to->normals = arena_array(b->a, vec3, corners, b->err));
 }
@@ -315,7 +314,8 @@ static bool make_common(scene_build *b, const baked_size *size, baked *to)
 static bool make_room(scene_build *b, world_parts *w)
 {
     size_t meshes           = HALVES;
-    baked_size size[HALVES] = { { ROOM_POSITIONS, ROOM_TRIANGLES }, { ROOM_POSITIONS, ROOM_TRIANGLES } };
+    baked_size size[HALVES] = { { ROOM_POSITIONS, ROOM_TRIANGLES },
+                                { ROOM_POSITIONS, ROOM_TRIANGLES } };
     for (int i = 0; i < b->study->scene_count; i++) {
         const gltf *g = b->files[i];
         if (scene_first_use(b, i) != i)
@@ -362,9 +362,9 @@ static bool add_common(scene_build *b, world_parts *w)
         world_instance *in = list_new(&w->instances, b->a, world_instance, b->err);
         if (!in)
             return false;
-        *in = (world_instance){ .mesh   = w->mesh_count,
-                                .place  = TRANSFORM_IDENTITY,
-                                .hollow = which == HOLLOW };
+        *in                        = (world_instance){ .mesh   = w->mesh_count,
+                                                       .place  = TRANSFORM_IDENTITY,
+                                                       .hollow = which == HOLLOW };
         w->meshes[w->mesh_count++] = mesh_of(&w->common[which]);
     }
     return true;

@@ -4,6 +4,8 @@
 
 #include "sim/scene.h"
 
+#include <string.h>
+
 /* A list that grows in an arena: what it outgrows stays there until the arena goes. */
 typedef struct list {
     void *items;
@@ -104,6 +106,19 @@ material_extra material_extra_of(const gltf_material *m);
 /* By what a share (times the mean of its texture) is to be multiplied so that no surface gives back
  * more light than any real one does; the user is told. */
 vec3 material_bounded(scene_build *b, const material_source *s, vec3 share, vec3 mean);
+
+/* What the textures of all materials keep, bytes: each counted once. */
+bool scene_textures(scene_build *b, uint64_t *bytes);
+
+/* Where the textures of a material stand: in *out, of `TEXTURE_SLOTS`. */
+enum { TEXTURE_SLOTS = 7 };
+static inline void texture_slots(const material_textures *t, texture_slot out[TEXTURE_SLOTS])
+{
+    const texture_slot all[] = { t->base,         t->surface,         t->emission,
+                                 t->transmission, t->specular_weight, t->specular_color,
+                                 t->normal };
+    memcpy(out, all, sizeof all);
+}
 
 /* Whether light goes straight through what is made of it, or through holes. */
 static inline bool material_is_hollow(const material *m)

@@ -5,6 +5,8 @@
 #include "core/color.h"
 #include "sim/scene_build.h"
 
+#include <stdlib.h>
+
 /* Light dies out nowhere in a closed room whose surfaces give all of it back, and its illuminance
  * has no finite value. The whitest surfaces there are, of sintered PTFE, reflect 99 %. */
 static const float most_reflectance = 0.995f;
@@ -32,8 +34,8 @@ static vec3 mean_emission(const material *m)
     float mean[4] = { 1, 1, 1, 1 };
     if (m->textures && m->textures->emission.texture)
         texture_mean(m->textures->emission.texture, mean);
-    vec3 e = v3_mul(m->look.emission, (vec3){ mean[0], mean[1], mean[2] });
-    return v3_scale(e, (float)LUMENS_PER_WATT);
+    return v3_scale(v3_mul(m->look.emission, (vec3){ mean[0], mean[1], mean[2] }),
+                    (float)LUMENS_PER_WATT);
 }
 
 static void describe(const material *m, scene_material *info)
@@ -59,6 +61,40 @@ static bool add(scene_build *b, const material_source *s)
     if (*m)
         describe(*m, info);
     return *m != NULL;
+}
+
+/* ---- textures -------------------------------------------------------------------------------- */
+
+static int by_address(const void *one, const void *other)
+{
+    uintptr_t a = (uintptr_t) * (const texture *const *)one;
+    uintptr_t b = (uintptr_t) * (const texture *const *)other;
+    return a < b ? -1 : a > b;
+}
+
+bool scene_textures(scene_build *b, uint64_t *bytes)
+{
+    const material *const *all = b->materials.items;
+    arena scratch              = { 0 };
+    size_t count               = 0;
+    const texture **found =
+        arena_array(&scratch, const texture *, TEXTURE_SLOTS * b->materials.count + 1, b->err);
+    for (size_t i = 0; found && i < b->materials.count; i++) {
+        texture_slot slots[TEXTURE_SLOTS];
+        if (!all[i]->textures)
+            continue;
+        texture_slots(all[i]->textures, slots);
+        for (int k = 0; k < TEXTURE_SLOTS; k++)
+            if (slots[k].texture)
+                found[count++] = slots[k].texture;
+    }
+    if (found)
+        qsort(found, count, sizeof *found, by_address);
+    for (size_t i = 0; i < count; i++)
+        if (i == 0 || found[i] != found[i - 1])
+            *bytes += texture_bytes(found[i]);
+    arena_clear(&scratch);
+    return found != NULL;
 }
 
 /* ---- patterns -------------------------------------------------------------------------------- */

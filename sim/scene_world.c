@@ -343,10 +343,9 @@ static bool look_at_materials(scene_build *b, world_parts *w)
         const material_textures *t = all[i]->textures;
         if (!t || !info[i].used)
             continue;
-        const texture_slot slots[] = { t->base,         t->surface,         t->emission,
-                                       t->transmission, t->specular_weight, t->specular_color,
-                                       t->normal };
-        for (size_t k = 0; k < sizeof slots / sizeof *slots; k++)
+        texture_slot slots[TEXTURE_SLOTS];
+        texture_slots(t, slots);
+        for (int k = 0; k < TEXTURE_SLOTS; k++)
             if (slots[k].texture)
                 w->texcoord[slots[k].set] = true;
     }

@@ -30,7 +30,7 @@ static bool read_exponent(const study_reader *r, const yaml_node_t *value, void 
 static bool read_ior(const study_reader *r, const yaml_node_t *value, void *field)
 {
     static const char wanted[] = "a refractive index > 1 and at most 4";
-    double n;
+    double n = 0.0;
     if (!read_between(r, value, 1.0, most_ior, wanted, &n))
         return false;
     if (!(n > 1.0 && (float)n > 1.0f))

@@ -95,12 +95,14 @@ static bool look_at_views(const scene *s, findings *f, bool print, lux_error *er
 /* ---- materials ------------------------------------------------------------------------------- */
 
 /* One number if all channels have it. */
-static void print_share(vec3 c)
+static void print_share(vec3 c, int width)
 {
+    char text[64];
     if (c.x == c.y && c.x == c.z)
-        printf("   %-20.3f", (double)c.x);
+        snprintf(text, sizeof text, "%.3f", (double)c.x);
     else
-        printf("   %5.3f %5.3f %5.3f   ", (double)c.x, (double)c.y, (double)c.z);
+        snprintf(text, sizeof text, "%.3f %.3f %.3f", (double)c.x, (double)c.y, (double)c.z);
+    printf("%*s", width, text);
 }
 
 static bool is_dark(vec3 c) { return c.x == 0.0f && c.y == 0.0f && c.z == 0.0f; }
@@ -108,6 +110,10 @@ static bool is_dark(vec3 c) { return c.x == 0.0f && c.y == 0.0f && c.z == 0.0f; 
 /* What is not plain about a material. */
 static void print_notes(const scene_material *m)
 {
+    if (!is_dark(m->transmittance)) {
+        printf("   lets through ");
+        print_share(m->transmittance, 0);
+    }
     if (m->file) {
         fputs("   of ", stdout);
         print_words(stdout, m->file, 0, INT_MAX);
@@ -131,7 +137,7 @@ static void print_materials(const scene *s)
         if (s->material_info[i].used)
             width = print_width(s->material_info[i].name, width);
     print_words(stdout, "materials", width + 2, INT_MAX);
-    printf("   kind         reflects R, G, B       lets through R, G, B\n");
+    printf("   kind       reflects R, G, B\n");
     for (int i = 0; i < s->material_count; i++) {
         const scene_material *m = &s->material_info[i];
         if (!m->used)
@@ -139,8 +145,7 @@ static void print_materials(const scene *s)
         fputs("  ", stdout);
         print_words(stdout, m->name[0] ? m->name : "(unnamed)", width, INT_MAX);
         printf("   %-10s", m->kind);
-        print_share(m->reflectance);
-        print_share(m->transmittance);
+        print_share(m->reflectance, 17);
         print_notes(m);
     }
 }

@@ -32,14 +32,21 @@ typedef struct solid {
     const float *corners;          /* 9 a triangle */
     const projection *projections; /* for TRIANGLE_PROJECTION, else NULL */
     const uint32_t *material;      /* NULL: all 0 */
+    const float *texcoord[2];      /* 6 a triangle, or NULL */
+    const float *normals;          /* 9 a triangle, or NULL */
     uint32_t triangle_count;
 } solid;
+
+/* What queries tell instances apart by */
+enum { TRAIT_OWNED = 1, TRAIT_HOLLOW = 2, TRAIT_SOLID = 4 /* not hollow */ };
 
 typedef struct placed {
     float to_mesh[3][4], to_world[3][4];
     uint32_t mesh;
-    int32_t owner;         /* 0: nobody's */
-    bool hollow, identity; /* identity: rays need not be transformed */
+    int32_t owner; /* 0: nobody's */
+    uint32_t traits;
+    bool identity; /* rays need not be transformed */
+    bool mirrors;  /* the determinant is negative */
 } placed;
 
 struct world {
@@ -47,16 +54,23 @@ struct world {
     const placed *instances;
     const solid *meshes;
     triangle_test test;
+    bool hollow; /* some instance is */
     world_stats stats;
 };
 
 typedef enum query_kind { FIRST_HIT, ANY_HIT, ALL_HITS } query_kind;
 
-/* The hits of one packet for world_all_hits: hits[k] is hit k. */
+typedef enum list_kind {
+    LIST_TO_SOLID, /* up to the first that is not hollow */
+    LIST_HOLLOW,   /* as if what is not hollow were not there */
+    LIST_EVERY,    /* as if all were hollow */
+} list_kind;
+
+/* The hits of one packet for world_all_hits and its like: hits[k] is hit k. */
 typedef struct hit_list {
     vhit *hits;
     int most;
-    bool through; /* all that is met counts as hollow */
+    list_kind kind;
     int count[LANES];
     bool stopped[LANES]; /* the last is not hollow */
     bool dropped[LANES]; /* there was one more than `most` */

@@ -122,10 +122,12 @@ typedef struct query {
     const world *w;
     const vray *ray;
     vfloat limit; /* farther is of no use; -INFINITY: nothing is */
-    vint spare;   /* instances of this owner are not there; 0: all are */
+    vint spare;   /* ANY_HIT: instances of this owner are not there; 0: all are */
     vint instance, triangle;
     vfloat u, v;
     hit_list *list;
+    uint32_t wary;   /* some rays do not see instances of these traits */
+    uint32_t hollow; /* ALL_HITS: instances of these traits are gone through */
 } query;
 
 /* One mesh, one set of signs. */
@@ -136,7 +138,7 @@ typedef struct pass {
     size_t axis[3];    /* of the shear's x, y, z */
     vfloat o[5], d[5]; /* x y z x y, for the projection test */
     int32_t instance;
-    bool hollow;
+    uint32_t traits; /* of the instance */
 } pass;
 
 INLINE void accept(query_kind kind, pass *p, uint32_t triangle, vmask in, const vmeet *m)
@@ -162,7 +164,7 @@ INLINE void accept(query_kind kind, pass *p, uint32_t triangle, vmask in, const 
             if (!(vbits(in) >> i & 1))
                 continue;
             one_hit h = { lane(m->t, i), lane(m->u, i),     lane(m->v, i),
-                          p->instance,   (int32_t)triangle, p->hollow };
+                          p->instance,   (int32_t)triangle, p->traits & q->hollow };
             hit_list_add(q->list, i, &h);
             if (!h.hollow && h.t < limit[i])
                 limit[i] = h.t;
@@ -293,18 +295,27 @@ INLINE vvec3 turned(const float m[3][4], vvec3 a)
                     m[2][0] * a.x + m[2][1] * a.y + m[2][2] * a.z };
 }
 
+/* The lanes that see an instance of a trait that the query is wary of. */
+static vmask seeing(const query *q, query_kind kind, const placed *at)
+{
+    if (kind == ALL_HITS || at->traits & TRAIT_HOLLOW)
+        return ~ALL_LANES;
+    return ~(q->spare == vsplat_int(at->owner));
+}
+
 static void walk_instance(query *q, query_kind kind, uint32_t number, vmask lanes)
 {
     const placed *at = &q->w->instances[number];
-    if (at->owner) {
-        lanes &= ~(q->spare == vsplat_int(at->owner));
+    if (at->traits & q->wary) {
+        lanes &= seeing(q, kind, at);
         if (!vany(lanes))
             return;
     }
-    pass p = { .q        = q,
-               .mesh     = &q->w->meshes[at->mesh],
-               .instance = (int32_t)number,
-               .hollow   = at->hollow || (q->list && q->list->through) };
+    pass p; /* not cleared, as an initialiser would: walk_mesh fills in the rest */
+    p.q        = q;
+    p.mesh     = &q->w->meshes[at->mesh];
+    p.instance = (int32_t)number;
+    p.traits   = at->traits;
     if (at->identity) {
         walk_mesh(&p, kind, q->ray->origin, q->ray->direction, lanes);
     } else {
@@ -389,13 +400,16 @@ vmask trace_packet_any(const world *w, const vray *ray, vmask active, vint spare
 {
     query q = query_make(w, ray, active);
     q.spare = spare;
+    q.wary  = TRAIT_OWNED | TRAIT_HOLLOW;
     walk_world(&q, ANY_HIT, active);
     return active & (q.limit < 0.0f);
 }
 
 void trace_packet_all(const world *w, const vray *ray, vmask active, hit_list *list)
 {
-    query q = query_make(w, ray, active);
-    q.list  = list;
+    query q  = query_make(w, ray, active);
+    q.list   = list;
+    q.wary   = list->kind == LIST_HOLLOW ? TRAIT_SOLID : 0;
+    q.hollow = list->kind == LIST_EVERY ? TRAIT_SOLID | TRAIT_HOLLOW : TRAIT_HOLLOW;
     walk_world(&q, ALL_HITS, active);
 }

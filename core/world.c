@@ -18,6 +18,27 @@ static double seconds(void)
 /* What a step down a tree costs, in tests of a triangle and in walks through a mesh. */
 static const double traverse_triangles = 2.0, traverse_instances = 0.1;
 
+/* Copies of arrays, until one fails. */
+typedef struct keeper {
+    arena *a;
+    uint64_t bytes; /* of all copies */
+    bool failed;
+    lux_error *err;
+} keeper;
+
+/* Of an array of 4-byte numbers; NULL of none. */
+static const void *keep(keeper *k, const void *from, size_t numbers)
+{
+    if (!from || numbers == 0 || k->failed)
+        return NULL;
+    void *to = arena_alloc(k->a, numbers, 4, 4, k->err);
+    if (to)
+        memcpy(to, from, 4 * numbers);
+    k->failed = !to;
+    k->bytes += 4 * numbers;
+    return to;
+}
+
 static bool copy_mesh(arena *a, const mesh *m, solid *to, uint64_t *bytes, lux_error *err)
 {
     /* One number more, so that a triangle may be read as three rows of four */
@@ -29,17 +50,15 @@ static bool copy_mesh(arena *a, const mesh *m, solid *to, uint64_t *bytes, lux_e
         memcpy(corners + 3 * i, &m->positions[m->corners[i]], 3 * sizeof *corners);
     to->corners        = corners;
     to->triangle_count = m->triangle_count;
-    *bytes += numbers * sizeof *corners;
 
-    if (m->material && m->triangle_count > 0) {
-        uint32_t *material = arena_array(a, uint32_t, m->triangle_count, err);
-        if (!material)
-            return false;
-        memcpy(material, m->material, m->triangle_count * sizeof *material);
-        to->material = material;
-        *bytes += m->triangle_count * sizeof *material;
-    }
-    return true;
+    size_t triangles = m->triangle_count;
+    keeper k         = { .a = a, .err = err };
+    to->material     = keep(&k, m->material, triangles);
+    for (int set = 0; set < 2; set++)
+        to->texcoord[set] = keep(&k, m->texcoord[set], 6 * triangles);
+    to->normals = keep(&k, m->normals, 9 * triangles);
+    *bytes += numbers * sizeof *corners + k.bytes;
+    return !k.failed;
 }
 
 static bool make_projections(arena *a, solid *s, uint64_t *bytes, lux_error *err)
@@ -80,9 +99,12 @@ static bool make_meshes(arena *a, const world_desc *d, world *w, lux_error *err)
 
 static placed place(const world_instance *from)
 {
-    placed p = {
-        .mesh = from->mesh, .owner = from->owner, .hollow = from->hollow, .identity = true
-    };
+    placed p    = { .mesh  = from->mesh,
+                    .owner = from->owner,
+                    .traits =
+                        (from->owner ? TRAIT_OWNED : 0) | (from->hollow ? TRAIT_HOLLOW : TRAIT_SOLID),
+                    .identity = true,
+                    .mirrors  = transform_determinant(&from->place) < 0.0 };
     transform r = transform_inverse(&from->place);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 4; j++) {
@@ -127,6 +149,7 @@ static bool make_instances(arena *a, const world_desc *d, world *w, lux_error *e
     for (uint32_t i = 0; boxes && i < d->instance_count; i++) {
         const bsp *tree = &w->meshes[d->instances[i].mesh].tree;
         instances[i]    = place(&d->instances[i]);
+        w->hollow       = w->hollow || d->instances[i].hollow;
         w->stats.placed_triangles += w->meshes[instances[i].mesh].triangle_count;
         if (tree->low.x <= tree->high.x) {
             numbers[count] = i;
@@ -197,18 +220,17 @@ void world_any_hit(const world *w, const vray *rays, const vmask *active, const 
 }
 
 static bool list_hits(const world *w, const vray *rays, const vmask *active, int packets, int most,
-                      bool through, vhit *hits)
+                      list_kind kind, vhit *hits)
 {
     bool all = true;
     for (int i = 0; i < packets; i++) {
-        hit_list list = { .hits    = hits + (size_t)i * (size_t)most,
-                          .most    = most,
-                          .through = through };
+        hit_list list = { .hits = hits + (size_t)i * (size_t)most, .most = most, .kind = kind };
         for (int k = 0; k < most; k++)
             list.hits[k] = (vhit){ .distance = vsplat(INFINITY),
                                    .instance = vsplat_int(-1),
                                    .triangle = vsplat_int(-1) };
-        trace_packet_all(w, &rays[i], active[i], &list);
+        if (kind != LIST_HOLLOW || w->hollow)
+            trace_packet_all(w, &rays[i], active[i], &list);
         for (int lane_number = 0; lane_number < LANES; lane_number++) {
             if (list.dropped[lane_number] && !list.stopped[lane_number])
                 all = false;
@@ -222,11 +244,17 @@ static bool list_hits(const world *w, const vray *rays, const vmask *active, int
 bool world_all_hits(const world *w, const vray *rays, const vmask *active, int packets, int most,
                     vhit *hits)
 {
-    return list_hits(w, rays, active, packets, most, false, hits);
+    return list_hits(w, rays, active, packets, most, LIST_TO_SOLID, hits);
+}
+
+bool world_hollow_hits(const world *w, const vray *rays, const vmask *active, int packets, int most,
+                       vhit *hits)
+{
+    return list_hits(w, rays, active, packets, most, LIST_HOLLOW, hits);
 }
 
 bool world_every_hit(const world *w, const vray *rays, const vmask *active, int packets, int most,
                      vhit *hits)
 {
-    return list_hits(w, rays, active, packets, most, true, hits);
+    return list_hits(w, rays, active, packets, most, LIST_EVERY, hits);
 }

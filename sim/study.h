@@ -119,7 +119,7 @@ typedef struct study_material {
     vec3 mirror;        /* [0, 1] */
     const char *brdf;   /* ready to open; NULL */
     dvec3 up;           /* where the table's azimuth 0, or a file's up, points to; {0,0,1} */
-    bool front_outside; /* the file's front lies on the triangles' back */
+    bool front_outside; /* the triangles' front looks out, not into the room */
     vec3 transmittance; /* of the whole pane at normal incidence, [0, pane_most(ior)] */
     double ior;         /* (1, 4]; 1.52 */
     bool box;           /* of a closed box of glass; not: of one surface */

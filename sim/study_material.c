@@ -30,7 +30,7 @@ static bool read_exponent(const study_reader *r, const yaml_node_t *value, void 
 static bool read_ior(const study_reader *r, const yaml_node_t *value, void *field)
 {
     static const char wanted[] = "a refractive index > 1 and at most 4";
-    double n = 0.0;
+    double n                   = 0.0;
     if (!read_between(r, value, 1.0, most_ior, wanted, &n))
         return false;
     if (!(n > 1.0 && (float)n > 1.0f))
@@ -121,14 +121,14 @@ static bool companions_are_there(const study_reader *r, const yaml_node_t *map)
 
 static double largest(vec3 c) { return (double)fmaxf(c.x, fmaxf(c.y, c.z)); }
 
-/* As close to 1 as numbers with a few decimals add up in floats */
-static const double sum_rounding = 1e-6;
+/* Relative: as close to their limit as decimals come in floats, and their sums */
+static const double rounding = 1e-6;
 
 static bool lobe_is_possible(const study_reader *r, const yaml_node_t *map, const study_material *m)
 {
     vec3 d = m->reflectance, s = m->specular;
     double sum = largest((vec3){ d.x + s.x, d.y + s.y, d.z + s.z });
-    return sum <= 1.0 + sum_rounding ||
+    return sum <= 1.0 + rounding ||
            study_node_failed(r, study_map_value(r, map, "specular"), ERR_FORMAT,
                              "`reflectance` and `specular` add up to %.4g: expected at most 1",
                              sum);
@@ -137,11 +137,11 @@ static bool lobe_is_possible(const study_reader *r, const yaml_node_t *map, cons
 static bool pane_is_possible(const study_reader *r, const yaml_node_t *map, const study_material *m)
 {
     double found = largest(m->transmittance), most = pane_most(m->ior);
-    return found <= most ||
+    return found <= most * (1.0 + rounding) ||
            study_node_failed(r, study_map_value(r, map, "transmittance"), ERR_FORMAT,
                              "expected a `transmittance` of at most %.4g, found %.4g (a pane of "
                              "`ior: %g` reflects the rest)",
-                             floor(most * 1e4) * 1e-4, found, m->ior);
+                             floor(most * 1e4 + rounding) * 1e-4, found, m->ior);
 }
 
 /* A file *.xml is a BSDF: of another kind there is no front. */

@@ -35,8 +35,8 @@ static inline vfloat vunpolarised(vpolarised a) { return 0.5f * (a.s + a.p); }
  * reflected. */
 static inline vfresnel vfresnel_border(vfloat cos_i, vfloat eta)
 {
-    vfloat sin2_i = vmax((1.0f - cos_i) * (1.0f + cos_i), vsplat(0.0f));
-    vfloat cos2_t = 1.0f - sin2_i / (eta * eta);
+    /* 1 - (1 - cos_i^2) / eta^2, of an eta near 1 as well */
+    vfloat cos2_t = ((eta - 1.0f) * (eta + 1.0f) + cos_i * cos_i) / (eta * eta);
     vmask passes  = cos2_t > 0.0f;
     vfloat cos_t  = vsqrt(vkeep(passes, cos2_t));
 

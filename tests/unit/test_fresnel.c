@@ -90,14 +90,12 @@ TEST(at_brewsters_angle_one_polarisation_passes)
 /* With and against a border light of one and the same ray is reflected alike (Stokes). */
 TEST(borders_reflect_alike_from_both_sides)
 {
-    for (double c = 1e-4; c < 1; c += 1e-3) {
+    for (double c = 0.01; c < 1; c += 1e-3) {
         vfresnel in  = vfresnel_border(vsplat((float)c), vsplat(1.5f));
         vfresnel out = vfresnel_border(in.cos_t, vsplat(1.0f / 1.5f));
+        /* A rounding of cos_t moves cos_i by 1e-7 / c, and R by 6 times as much */
         assert_near(lane(vunpolarised(out.reflected), 0), lane(vunpolarised(in.reflected), 0),
-                    1e-3); /* cos_t is rounded: 6e-8 of it is 1e-3 of a cosine of 1e-4 */
-        if (c > 0.01)
-            assert_near(lane(vunpolarised(out.reflected), 0), lane(vunpolarised(in.reflected), 0),
-                        3e-5);
+                    1e-6 / c + 1e-6);
     }
 }
 
@@ -191,16 +189,14 @@ TEST(light_is_bent_as_snell_says)
  * triangle: that is put right. */
 TEST(nothing_leaks_through_a_triangle)
 {
-    vshading s  = { .wo   = vspread((vec3){ 0.99504f, 0, 0.0995f }),
-                    .n    = vspread((vec3){ -0.0499f, 0, 0.99875f }),
-                    .flat = vspread((vec3){ 0, 0, 1 }) };
-    vvec3 wi    = vmirrored(&s);
-    vfloat into = vdot(wi, s.flat);
-    assert_true(vall(into > 0.0f));
+    vshading s = { .flat = vspread((vec3){ 0, 0, 1 }),
+                   .wo   = vnormalize(vspread((vec3){ 10, 0, 1 })),
+                   .n    = vnormalize(vspread((vec3){ -1.5f, 0, 20 })) };
+    vvec3 wi   = vmirrored(&s);
+    assert_true(vall(vdot(wi, s.flat) > 0.0f));
     assert_near(lane(vlength(wi), 0), 1.0, 1e-6);
-    s.wo = vspread((vec3){ -0.9995f, 0, 0.0316f });
-    s.n  = vspread((vec3){ -0.9987f, 0, 0.0500f });
-    wi   = vrefracted(&s, vdot(s.wo, s.n), vsplat(0.5f), vsplat(1.5f));
+    s.n = vnormalize(vspread((vec3){ 1, 0, -0.5f }));
+    wi  = vrefracted(&s, vdot(s.wo, s.n), vsplat(0.9f), vsplat(1.5f));
     assert_true(vall(vdot(wi, s.flat) < 0.0f));
     assert_near(lane(vlength(wi), 0), 1.0, 1e-6);
 }

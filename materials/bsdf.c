@@ -244,7 +244,8 @@ static bool make_tables(arena *a, bsdf *b, bsdf_side *s, double *weight, lux_err
                 sum[part] += w[i];
             s->share[part][row] = (float)sum[part];
         }
-        distribution_make(s->cdf + (size_t)row * stride, weight, 2 * b->cells);
+        if (distribution_make(s->cdf + (size_t)row * stride, weight, 2 * b->cells) == 0.0)
+            memset(s->cdf + (size_t)row * stride, 0, stride * sizeof(float)); /* black: no draws */
         b->figures.most = fmax(b->figures.most, sum[0] + sum[1]);
     }
     return true;

@@ -130,7 +130,7 @@ static vmask layer_scatter(const material *self, const vshading *s, vfloat u, vf
     }
     vfloat pdf;
     vrgb f        = layer_reflect(self, s, &wi, active, &pdf);
-    vmask goes    = active & (pdf > 0.0f);
+    vmask goes    = active & (pdf > 0.0f) & (f.x > 0.0f);
     out->wi       = vkeep3(goes, wi);
     out->weight   = vkeep3(goes, vscale(f, 1.0f / pdf));
     out->pdf      = vkeep(goes, pdf);

@@ -177,6 +177,65 @@ static inline row4 row_load(const float *table, int32_t index)
     return row;
 }
 
+/* Four floats side by side, such as the red, green, blue and spare of a table's corner: what one
+ * lane blends by itself. float4_load wants them on a multiple of 16 bytes. vturn4 makes of a float4
+ * a lane one packet of each of the four; vgather4 is that of table[index] ... table[index + 3] of
+ * each lane, dead ones too, at any alignment. */
+#if PACKET_WIDTH == 1
+typedef struct float4 {
+    float a, b, c, d;
+} float4;
+
+static inline float4 float4_scale(float4 q, float s)
+{
+    return (float4){ q.a * s, q.b * s, q.c * s, q.d * s };
+}
+static inline float4 float4_add(float4 p, float4 q)
+{
+    return (float4){ p.a + q.a, p.b + q.b, p.c + q.c, p.d + q.d };
+}
+static inline void vturn4(const float4 q[LANES], vfloat out[4]) { memcpy(out, q, sizeof *q); }
+#else
+typedef float float4 __attribute__((vector_size(16)));
+
+static inline float4 float4_scale(float4 q, float s) { return q * s; }
+static inline float4 float4_add(float4 p, float4 q) { return p + q; }
+#if PACKET_WIDTH == 4
+static inline void vturn4(const float4 q[LANES], vfloat out[4])
+{
+    vfloat low01  = __builtin_shufflevector(q[0], q[1], 0, 4, 1, 5);
+    vfloat low23  = __builtin_shufflevector(q[2], q[3], 0, 4, 1, 5);
+    vfloat high01 = __builtin_shufflevector(q[0], q[1], 2, 6, 3, 7);
+    vfloat high23 = __builtin_shufflevector(q[2], q[3], 2, 6, 3, 7);
+    out[0]        = __builtin_shufflevector(low01, low23, 0, 1, 4, 5);
+    out[1]        = __builtin_shufflevector(low01, low23, 2, 3, 6, 7);
+    out[2]        = __builtin_shufflevector(high01, high23, 0, 1, 4, 5);
+    out[3]        = __builtin_shufflevector(high01, high23, 2, 3, 6, 7);
+}
+#else
+static inline void vturn4(const float4 q[LANES], vfloat out[4])
+{
+    for (int i = 0; i < LANES; i++)
+        for (int c = 0; c < 4; c++)
+            out[c][i] = q[i][c];
+}
+#endif
+#endif
+
+static inline float4 float4_load(const float *from)
+{
+    float4 q;
+    memcpy(&q, __builtin_assume_aligned(from, 16), sizeof q);
+    return q;
+}
+static inline void vgather4(const float *table, vint index, vfloat out[4])
+{
+    float4 q[LANES];
+    for (int i = 0; i < LANES; i++)
+        memcpy(&q[i], table + lane(index, i), sizeof q[i]);
+    vturn4(q, out);
+}
+
 /* What the compiler has no operator for. vmin is a < b ? a : b, and so b where either is NaN;
  * vmax likewise. vfloor and vround (halves go to even) keep NaN, infinities and the sign of -0.
  * vbits puts lane i into bit i; vreverse_bits makes bit 0 of each lane its bit 31, and so on.

@@ -56,6 +56,8 @@ static vlook look_at(const material *m, const place *at)
     const material_textures *t = m->textures;
     const material_look *c     = &m->look;
     vtexel base                = look_up(&t->base, at);
+    if (t->alpha_only)
+        base.red = base.green = base.blue = vsplat(1.0f);
     vtexel surface             = look_up(&t->surface, at);
     return (vlook){
         .color           = share3(times(c->color, base)),

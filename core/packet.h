@@ -179,8 +179,7 @@ static inline row4 row_load(const float *table, int32_t index)
 
 /* Four floats side by side, such as the red, green, blue and spare of a table's corner: what one
  * lane blends by itself. float4_load wants them on a multiple of 16 bytes. vturn4 makes of a float4
- * a lane one packet of each of the four; vgather4 is that of table[index] ... table[index + 3] of
- * each lane, dead ones too, at any alignment. */
+ * a lane one packet of each of the four. */
 #if PACKET_WIDTH == 1
 typedef struct float4 {
     float a, b, c, d;
@@ -227,13 +226,6 @@ static inline float4 float4_load(const float *from)
     float4 q;
     memcpy(&q, __builtin_assume_aligned(from, 16), sizeof q);
     return q;
-}
-static inline void vgather4(const float *table, vint index, vfloat out[4])
-{
-    float4 q[LANES];
-    for (int i = 0; i < LANES; i++)
-        memcpy(&q[i], table + lane(index, i), sizeof q[i]);
-    vturn4(q, out);
 }
 
 /* What the compiler has no operator for. vmin is a < b ? a : b, and so b where either is NaN;

@@ -77,7 +77,7 @@ static inline vint vtable_cell(const table_axis *axis, int cells, vfloat x)
 static inline vtable_place vtable_find_bin(const table_axis *axis, vfloat x)
 {
     vfloat bin[4];
-    vgather4(axis->bins, 4 * vto_int((x - axis->at[0]) * axis->bins_per_unit), bin);
+    vgather4(axis->bins, vto_int((x - axis->at[0]) * axis->bins_per_unit), bin);
     vmask second = bin[1] <= x;
     vint below   = vto_int(bin[3]);
     below        = vselect_int(second, below + 1, below);

@@ -2,6 +2,7 @@
 #include "sim/direct.h"
 
 #include "core/color.h"
+#include "sim/shadow.h"
 
 #include <float.h>
 
@@ -9,6 +10,7 @@ struct direct_scratch {
     vray rays[DIRECT_PACKETS];
     vmask asked[DIRECT_PACKETS], blocked[DIRECT_PACKETS];
     vint spare[DIRECT_PACKETS];
+    vrgb passes[DIRECT_PACKETS];
     int64_t ray_count;
 };
 
@@ -56,21 +58,16 @@ static vmask glow_reaches(const light *l, const vsurface *at, const vlight_sampl
     return cosine * to->dist > off;
 }
 
-static void trace_shadows(const scene *s, direct_scratch *w, int packets, ray_hint hint)
-{
-    int64_t before = w->ray_count;
-    for (int k = 0; k < packets; k++)
-        w->ray_count += __builtin_popcount((unsigned)vbits(w->asked[k]));
-    if (w->ray_count == before)
-        return;
-    world_any_hit(s->world, w->rays, w->asked, s->owners ? w->spare : NULL, packets, hint,
-                  w->blocked);
-}
-
 static const scene_light *info_of(const scene *s, int l)
 {
     static const scene_light glow = { .dimming = 1.0f };
     return l < s->light_count ? &s->light_info[l] : &glow;
+}
+
+/* Lanes of packet k to which light from below the horizon counts. */
+static vmask around(const direct_batch *b, int k)
+{
+    return b->all_around ? ALL_LANES : b->around ? b->around[k] : (vmask){ 0 };
 }
 
 /* Takes over what light l gives the lanes of packet k, and sets out their shadow rays. */
@@ -79,9 +76,8 @@ static void take(const scene *s, direct_scratch *w, const direct_batch *b, int k
 {
     const vsurface *at = &b->at[k];
     vlight_sample lamp;
-    vmask lit = light_sample(s->lights[l], &at->position, b->u[k].x, b->u[k].y, lanes, &lamp);
-    if (!b->all_around)
-        lit = lit & (vdot(lamp.wi, at->normal) > 0.0f);
+    vmask lit   = light_sample(s->lights[l], &at->position, b->u[k].x, b->u[k].y, lanes, &lamp);
+    lit         = lit & (around(b, k) | (vdot(lamp.wi, at->normal) > 0.0f));
     vfloat dist = lamp.dist;
     if (l >= s->light_count)
         lit = lit & glow_reaches(s->lights[l], at, &lamp, &dist);
@@ -110,9 +106,14 @@ static void begin_pick(direct_scratch *w, int k, direct_pick *out)
 static void end_picks(const scene *s, direct_scratch *w, int packets, ray_hint hint,
                       direct_pick *out)
 {
-    trace_shadows(s, w, packets, hint);
-    for (int k = 0; k < packets; k++)
-        out[k].e = vkeep3(~(w->asked[k] & w->blocked[k]), out[k].e);
+    w->ray_count +=
+        shadow_trace(s, w->rays, w->asked, w->spare, packets, hint, w->blocked, w->passes);
+    for (int k = 0; k < packets; k++) {
+        vmask blocked = w->asked[k] & w->blocked[k];
+        if (s->hollow)
+            out[k].e = vselect3(w->asked[k], vmul(out[k].e, w->passes[k]), out[k].e);
+        out[k].e = vkeep3(~blocked, out[k].e);
+    }
 }
 
 void direct_lamp(const scene *s, direct_scratch *w, int l, const direct_batch *b, direct_pick *out)
@@ -145,6 +146,14 @@ vvec3 direct_facing(const light *l, const vsurface *at)
     return vselect3(length > 0.0f, vscale(to, 1.0f / length), at->normal);
 }
 
+/* The normal by which lamp l is weighed. */
+static vvec3 weighing_normal(const light *l, const vsurface *at, vmask around)
+{
+    if (!vany(around))
+        return at->normal;
+    return vselect3(around, direct_facing(l, at), at->normal);
+}
+
 /* Which lamp of a set of few each lane draws, -1 for none, and with what probability. */
 static vint choose_of_few(const scene *s, const light_set *set, const direct_batch *b, int k,
                           vmask active, vfloat pick, vfloat *chance)
@@ -153,7 +162,7 @@ static vint choose_of_few(const scene *s, const light_set *set, const direct_bat
     vfloat weight[FEW_LAMPS], total = { 0 };
     for (int i = 0; i < set->lamps; i++) {
         const light *l = s->lights[set->lights[i]];
-        vvec3 n        = b->all_around ? direct_facing(l, at) : at->normal;
+        vvec3 n        = weighing_normal(l, at, around(b, k));
         weight[i]      = direct_weight(l, &at->position, &n, active);
         total          = total + weight[i];
     }
@@ -171,10 +180,10 @@ static vint choose_of_few(const scene *s, const light_set *set, const direct_bat
     return drawn;
 }
 
-/* The normal by which lights are chosen: none where light from all around counts. */
-static vvec3 horizon_of(const vsurface *at, bool all_around)
+/* The normal by which a tree chooses: none where light from all around counts. */
+static vvec3 horizon_of(const vsurface *at, vmask around)
 {
-    return all_around ? (vvec3){ 0 } : at->normal;
+    return vselect3(around, (vvec3){ 0 }, at->normal);
 }
 
 static vint choose_of_set(const scene *s, const light_set *set, const direct_batch *b, int k,
@@ -183,7 +192,7 @@ static vint choose_of_set(const scene *s, const light_set *set, const direct_bat
     if (!set->tree)
         return choose_of_few(s, set, b, k, active, pick, chance);
     vlight_choice drawn;
-    vvec3 n   = horizon_of(&b->at[k], b->all_around);
+    vvec3 n   = horizon_of(&b->at[k], around(b, k));
     vmask any = vlight_tree_choose(set->tree, &b->at[k].position, &n, pick, active, &drawn);
     *chance   = drawn.probability;
     return vselect_int(any, vgather_int(set->lights, vkeep_int(any, drawn.index)), vsplat_int(-1));
@@ -229,13 +238,13 @@ void direct_one(const scene *s, direct_scratch *w, const direct_batch *b, direct
 }
 
 vfloat direct_glow_pdf(const scene *s, const vsurface *at, const vvec3 *wi, vint emitter,
-                       bool glow_alone, bool all_around, vmask active)
+                       bool glow_alone, vmask around, vmask active)
 {
     const light_set *set = glow_alone ? &s->glow_set : &s->sets[s->layered ? s->glow_group : 0];
     vmask left           = active & (emitter >= 0);
     if (s->emitter_count == 0 || !vany(left))
         return (vfloat){ 0 };
-    vvec3 n       = horizon_of(at, all_around);
+    vvec3 n       = horizon_of(at, around);
     vint index    = vkeep_int(left, emitter + set->lamps); /* emitters stand behind the lamps */
     vfloat chance = vlight_tree_probability(set->tree, &at->position, &n, index, left);
     vfloat pdf    = { 0 };
@@ -248,4 +257,39 @@ vfloat direct_glow_pdf(const scene *s, const vsurface *at, const vvec3 *wi, vint
         pdf            = vselect(met, hit.pdf, pdf);
     }
     return pdf * chance * (glow_alone ? 1.0f : 1.0f / (float)s->set_count);
+}
+
+/* Where lamp l stands in its set. */
+static int place_in_set(const light_set *set, int l)
+{
+    int i = 0;
+    while (set->lights[i] != l)
+        i++;
+    return i;
+}
+
+vfloat direct_lamp_pdf(const scene *s, const vsurface *at, const vvec3 *wi, int l, vmask around,
+                       vmask active)
+{
+    const light_set *set = &s->sets[s->layered ? s->light_info[l].group : 0];
+    const light *lamp    = s->lights[l];
+    vlight_hit hit;
+    vmask met = lamp->type->hit(lamp, &at->position, wi, active, &hit);
+    vfloat chance;
+    if (set->tree) {
+        vvec3 n    = horizon_of(at, around);
+        vint index = vsplat_int(place_in_set(set, l));
+        chance     = vlight_tree_probability(set->tree, &at->position, &n, index, met);
+    } else {
+        vfloat own = { 0 }, total = { 0 };
+        for (int i = 0; i < set->lamps; i++) {
+            const light *other = s->lights[set->lights[i]];
+            vvec3 n            = weighing_normal(other, at, around);
+            vfloat weight      = direct_weight(other, &at->position, &n, met);
+            total              = total + weight;
+            own                = set->lights[i] == l ? weight : own;
+        }
+        chance = vkeep(total > 0.0f, own / total);
+    }
+    return vkeep(met, hit.pdf * chance * (1.0f / (float)s->set_count));
 }

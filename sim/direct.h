@@ -22,14 +22,15 @@ typedef struct direct_batch {
     const vmask *active;
     const vsample4 *u;
     int packets;
-    bool glow_alone; /* glowing surfaces, no lamps */
-    bool all_around; /* light from below the horizon counts too */
+    bool glow_alone;     /* glowing surfaces, no lamps */
+    bool all_around;     /* light from below the horizon counts too */
+    const vmask *around; /* or that of some lanes alone; NULL */
 } direct_batch;
 
 /* Light from one place, as drawn for each point. */
 typedef struct direct_pick {
     vvec3 wi;
-    vrgb e;     /* W/m^2, facing wi, divided by all probabilities; 0 in shadow */
+    vrgb e;     /* W/m^2, facing wi, divided by all probabilities; 0 in shadow; tinted by glass */
     vint light; /* of scene.lights; -1: none */
     vfloat pdf; /* 1/sr, with which wi is drawn; INFINITY: no ray finds the light by itself */
 } direct_pick;
@@ -42,10 +43,12 @@ void direct_lamp(const scene *s, direct_scratch *w, int l, const direct_batch *b
  * by one shadow ray. */
 void direct_one(const scene *s, direct_scratch *w, const direct_batch *b, direct_pick *out);
 
-/* The density with which direct_one() draws the direction wi to the emitter at points with those
- * normals, 1/sr. */
+/* The density with which direct_one() draws the direction wi to the emitter, or to lamp l, at
+ * points with those normals, 1/sr. `around`: lanes to which light from below the horizon counts. */
 vfloat direct_glow_pdf(const scene *s, const vsurface *at, const vvec3 *wi, vint emitter,
-                       bool glow_alone, bool all_around, vmask active);
+                       bool glow_alone, vmask around, vmask active);
+vfloat direct_lamp_pdf(const scene *s, const vsurface *at, const vvec3 *wi, int l, vmask around,
+                       vmask active);
 
 /* About what lamp l gives a surface with normal n at p, as luminance, W/m^2, nothing in between;
  * above 0 wherever it may give light. */

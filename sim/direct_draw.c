@@ -125,11 +125,12 @@ void direct_sensor_draw(direct_sensor *w, int i, const uint32_t *index, const ui
                         (vlane_index() + j) < to);
         }
         direct_trace(w, RAYS_COHERENT);
+        for (int k = 0; k < w->batched; k++)
+            w->e[k] = direct_arrives(w, k, w->e[k]);
         for (int j = from; j < to; j++) {
             int k = (j - from) / LANES, at = (j - from) % LANES;
-            bool hidden = vbits(w->asked[k] & w->blocked[k]) >> at & 1;
-            e[j]        = hidden ? 0.0f : lane(w->e[k], at);
-            lamp[j]     = lane(w->light[k], at);
+            e[j]    = lane(w->e[k], at);
+            lamp[j] = lane(w->light[k], at);
         }
         w->batched = 0;
     }

@@ -45,6 +45,7 @@ struct direct_sensor {
     vmask asked[DIRECT_PACKETS], blocked[DIRECT_PACKETS];
     vint spare[DIRECT_PACKETS], light[DIRECT_PACKETS];
     vfloat e[DIRECT_PACKETS];
+    vrgb passes[DIRECT_PACKETS]; /* in a scene with hollow surfaces */
     int batched;
 };
 
@@ -67,8 +68,12 @@ vmask direct_is_known(const direct_sensor *w, int l);
 /* One or all of the sums that a lamp's light belongs to. */
 void direct_add(direct_sensor *w, sensor_sum *sums, int l, vfloat e, vfloat bound);
 
-/* Traces the rays of the batch. */
+/* Traces the rays of the batch: what of the light passes is then known. */
 void direct_trace(direct_sensor *w, ray_hint hint);
+
+/* What arrives of e along the rays of packet k, toward the lamps in w->light; of lanes that have
+ * not asked, all. */
+vfloat direct_arrives(const direct_sensor *w, int k, vfloat e);
 
 /* All lamps without extent that something may shadow: by rays of their own, or as the tail. `first`
  * is the number of the first sensor; sums hold what is known before. */

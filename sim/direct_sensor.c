@@ -3,6 +3,7 @@
 
 #include "core/color.h"
 #include "sim/direct_parts.h"
+#include "sim/shadow.h"
 
 #include <string.h>
 
@@ -137,11 +138,27 @@ void direct_add(direct_sensor *w, sensor_sum *sums, int l, vfloat e, vfloat boun
 
 void direct_trace(direct_sensor *w, ray_hint hint)
 {
-    for (int k = 0; k < w->batched; k++)
-        w->ray_count += __builtin_popcount((unsigned)vbits(w->asked[k]));
-    if (w->batched)
-        world_any_hit(w->s->world, w->rays, w->asked, w->s->owners ? w->spare : NULL, w->batched,
-                      hint, w->blocked);
+    w->ray_count +=
+        shadow_trace(w->s, w->rays, w->asked, w->spare, w->batched, hint, w->blocked, w->passes);
+}
+
+/* Of a lamp's light as luminance, what glass of another colour lets through. */
+static vfloat tinted(const direct_sensor *w, int k, vfloat e)
+{
+    vfloat share = { 0 };
+    for (vmask left = w->asked[k]; vany(left);) {
+        int l;
+        vmask same = vtake_same(w->light[k], &left, &l);
+        vrgb color = vspread(w->s->light_info[l].color);
+        share      = vselect(same, vrgb_luminance(vmul(color, w->passes[k])), share);
+    }
+    return vselect(w->asked[k], e * share, e);
+}
+
+vfloat direct_arrives(const direct_sensor *w, int k, vfloat e)
+{
+    vfloat open = vkeep(~(w->asked[k] & w->blocked[k]), e);
+    return w->s->hollow ? tinted(w, k, open) : open;
 }
 
 vmask direct_sensor_sum(direct_sensor *w, const vsurface *at, vmask active, uint32_t first,

@@ -42,7 +42,7 @@ static void end_batch(direct_sensor *w, sensor_sum *sums)
 {
     direct_trace(w, RAYS_COHERENT);
     for (int k = 0; k < w->batched; k++)
-        direct_add(w, sums, lane(w->light[k], 0), vkeep(w->asked[k] & ~w->blocked[k], w->e[k]),
+        direct_add(w, sums, lane(w->light[k], 0), vkeep(w->asked[k], direct_arrives(w, k, w->e[k])),
                    (vfloat){ 0 });
     w->batched = 0;
 }
@@ -176,7 +176,7 @@ static void add_tail(direct_sensor *w, int j, vfloat each, vfloat bound, sensor_
     for (vmask left = w->asked[j]; vany(left);) {
         int l;
         vmask same = vtake_same(w->light[j], &left, &l);
-        direct_add(w, sums, l, vkeep(same & ~w->blocked[j], each), vkeep(same, bound));
+        direct_add(w, sums, l, vkeep(same, direct_arrives(w, j, each)), vkeep(same, bound));
     }
 }
 

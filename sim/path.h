@@ -9,8 +9,13 @@
  *     E(x) = E_lights(x) + response / pdf L(x, w)                for the w that is drawn
  *     L(x, w) = L_emitted(y) + sum of f cos E_lights(y) + weight L(y, w')   at what w meets, y
  *
- * Glowing surfaces are found in both ways, by light and by ray: each counts with the power
- * heuristic of both pdfs, p_a^2 / (p_a^2 + p_b^2) (Veach and Guibas, SIGGRAPH 1995).
+ * What is found in both ways, by asking lights and by the path's own rays, counts with the power
+ * heuristic of both pdfs, p_a^2 / (p_a^2 + p_b^2) (Veach and Guibas, SIGGRAPH 1995): glowing surfaces
+ * always, lamps with extent by way of all that is not matt. Mirrors are not asked about: what a ray
+ * finds by way of them counts in full, and point-like lamps not at all. Through thin glass and
+ * holes a path goes straight as if it had not met them; shadow rays have passed there too. So they
+ * have, straight on, where glass refracts: what a path finds behind it, bent, counts only if it
+ * began at the eye.
  *
  * A path is worked out alone, whatever packet it travels in: its result depends on its sample
  * number and seed only.
@@ -26,24 +31,29 @@ enum { PATHS = 1024 }; /* most at once; a multiple of every packet width */
 typedef float path_sums[3][PATHS];
 
 /* One bundle of paths, as arrays of `count` numbers. Filled in by the caller: where they begin
- * and their sample. Given back: what they found, by the order in which they began. */
+ * (from the eye: and which way) and their sample. Given back: what they found, by the order in which they began. */
 typedef struct path_bundle {
     int count;
     float x[PATHS], y[PATHS], z[PATHS];    /* m, where they begin */
     float error[PATHS];                    /* m, of that place */
-    float nx[PATHS], ny[PATHS], nz[PATHS]; /* unit normal of the lit side, or where it faces */
+    float nx[PATHS], ny[PATHS], nz[PATHS]; /* unit normal of the lit side, or where it faces; from
+                                              the eye the direction */
     uint32_t index[PATHS], seed[PATHS];    /* which sample of which scrambled set */
 
-    path_sums direct;   /* straight from lamps, if asked for, and from glowing surfaces */
+    path_sums direct;   /* straight from lamps, if asked for, and from glowing surfaces, thin glass
+                           between or not */
     path_sums indirect; /* after at least one reflection */
     path_sums *layers;  /* NULL; or of each group, undimmed: both; behind them: direct alone */
-    float met[PATHS];   /* 1 if the first ray met a surface that reflects, else 0 */
+    float met[PATHS];   /* 1 if the first ray met a surface that gives light on, else 0 */
 } path_bundle;
 
 typedef struct path_options {
     study_quantity quantity; /* what the beginning is */
     bool lamps;              /* ask lamps where they begin; glowing surfaces are always found */
     bool bounce;             /* go on from there; false: straight light alone (--direct-only) */
+    bool eye;     /* they begin with a ray from the eye: sums are the radiance that comes along it,
+                     W/(sr m^2); lamps with extent are seen */
+    float spread; /* rad: of the beam that a ray from the eye stands for */
 } path_options;
 
 typedef struct path_tracer path_tracer; /* scratch of one thread */

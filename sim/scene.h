@@ -28,6 +28,14 @@ typedef struct scene_material {
     bool used;            /* some surface is made of it */
 } scene_material;
 
+/* What paths need to know of a material without asking it. */
+typedef enum material_deed {
+    DOES_ASK    = 1, /* it has a part with a density: lights are asked where it is met */
+    DOES_NARROW = 2, /* it is not matt */
+    DOES_AROUND = 4, /* light from the other side counts */
+    DOES_SOLID  = 8, /* it is the face of a solid that refracts */
+} material_deed;
+
 typedef struct scene_light {
     const char *name;      /* for reports: "downlight (4.ies)" */
     dvec3 at;              /* m, in the user's frame; of a far one: where it shines to */
@@ -93,6 +101,13 @@ typedef struct scene {
 
     int camera_count;
     const scene_camera *cameras;
+
+    const int32_t *material_does; /* of each material: bits of material_deed */
+    bool textured;                /* what follows is of materials in use: some have textures, */
+    bool smooth;                  /* some mesh has normals of its own, */
+    bool hollow;                  /* some let light straight through, */
+    bool solids;                  /* some of those are solids that refract, */
+    bool narrow;                  /* some are not matt: rays find lamps by way of them */
 
     bool reflects;     /* some surface does */
     bool glows;        /* some surface emits light */

@@ -39,7 +39,9 @@ typedef struct material_textures {
     texture_slot base, surface, emission, transmission, specular_weight, specular_color, normal;
     float normal_scale; /* of the normal map's x and y */
     alpha_mode alpha;
-    float cutoff; /* ALPHA_MASK: what is below it is not there, all else is */
+    float cutoff;    /* ALPHA_MASK: what is below it is not there, all else is */
+    bool alpha_only; /* base's colour is left out, as if it were white: holes are kept of a surface
+                        whose colour is said elsewhere */
 } material_textures;
 
 #endif

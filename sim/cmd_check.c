@@ -14,15 +14,16 @@ static double bytes_of_pixels(double pixels) { return pixels * 520.0; }
 
 typedef struct findings {
     world_stats world;
-    double largest; /* bytes, of the grid or view that needs most */
-    double lumens;  /* of all lights that are not far away */
-    int name_width; /* of lights, groups, grids and views */
+    double textures; /* bytes */
+    double largest;  /* bytes, of the grid or view that needs most */
+    double lumens;   /* of all lights that are not far away */
+    int name_width;  /* of lights, groups, grids and views */
 } findings;
 
 /* With what the program takes in any case. */
 static double bytes_to_run(const findings *f)
 {
-    return (double)f->world.bytes + f->largest + 8.0 * mebi;
+    return (double)f->world.bytes + f->textures + f->largest + 8.0 * mebi;
 }
 
 /* "up", "along +x", ...: where the sensors of a plane look. */
@@ -91,19 +92,61 @@ static bool look_at_views(const scene *s, findings *f, bool print, lux_error *er
     return true;
 }
 
+/* ---- materials ------------------------------------------------------------------------------- */
+
+/* One number if all channels have it. */
+static void print_share(vec3 c, int width)
+{
+    char text[64];
+    if (c.x == c.y && c.x == c.z)
+        snprintf(text, sizeof text, "%.3f", (double)c.x);
+    else
+        snprintf(text, sizeof text, "%.3f %.3f %.3f", (double)c.x, (double)c.y, (double)c.z);
+    printf("%*s", width, text);
+}
+
+static bool is_dark(vec3 c) { return c.x == 0.0f && c.y == 0.0f && c.z == 0.0f; }
+
+/* What is not plain about a material. */
+static void print_notes(const scene_material *m)
+{
+    if (!is_dark(m->transmittance)) {
+        printf("   lets through ");
+        print_share(m->transmittance, 0);
+    }
+    if (m->file) {
+        fputs("   of ", stdout);
+        print_words(stdout, m->file, 0, INT_MAX);
+    }
+    if (m->textured)
+        printf("   textured");
+    if (m->holes)
+        printf("   with holes");
+    if (m->box)
+        printf("   closed boxes");
+    if (!is_dark(m->emission))
+        printf("   glows, %g %g %g cd/m2", (double)m->emission.x, (double)m->emission.y,
+               (double)m->emission.z);
+    printf("%s\n", m->overridden ? "   (by the study)" : "");
+}
+
 static void print_materials(const scene *s)
 {
-    printf("materials                          reflectance R, G, B\n");
+    int width = 20;
+    for (int i = 0; i < s->material_count; i++)
+        if (s->material_info[i].used)
+            width = print_width(s->material_info[i].name, width);
+    print_words(stdout, "materials", width + 2, INT_MAX);
+    printf("   kind       reflects R, G, B\n");
     for (int i = 0; i < s->material_count; i++) {
         const scene_material *m = &s->material_info[i];
         if (!m->used)
             continue;
-        printf("  %-32s %6.3f %6.3f %6.3f", m->name[0] ? m->name : "(unnamed)",
-               (double)m->reflectance.x, (double)m->reflectance.y, (double)m->reflectance.z);
-        if (m->emission.x > 0 || m->emission.y > 0 || m->emission.z > 0)
-            printf("   glows, %g %g %g cd/m2", (double)m->emission.x, (double)m->emission.y,
-                   (double)m->emission.z);
-        printf("%s\n", m->overridden ? "   (by the study)" : "");
+        fputs("  ", stdout);
+        print_words(stdout, m->name[0] ? m->name : "(unnamed)", width, INT_MAX);
+        printf("   %-10s", m->kind);
+        print_share(m->reflectance, 17);
+        print_notes(m);
     }
 }
 
@@ -262,7 +305,9 @@ static int check_command(const command_context *c, lux_error *err)
     group_sum *sums;
     if (!s || !sum_groups(c->a, s, &sums, err))
         return exit_code_of(err, true);
-    findings f = { .world = world_statistics(s->world), .name_width = name_width(s) };
+    findings f = { .world      = world_statistics(s->world),
+                   .textures   = (double)s->texture_bytes,
+                   .name_width = name_width(s) };
     for (int g = 0; g < s->group_count; g++)
         f.lumens += sums[g].lumens;
     bool print = !c->line->json;

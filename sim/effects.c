@@ -11,6 +11,12 @@ const char *effect_name(effect e)
         [EFFECT_NEAR_FIELD]      = "near-field",
         [EFFECT_MANY_LIGHTS]     = "many-lights",
         [EFFECT_INTERREFLECTION] = "interreflection",
+        [EFFECT_MIRRORS]         = "mirrors",
+        [EFFECT_REFRACTION]      = "refraction",
+        [EFFECT_TEXTURES]        = "textures",
+        [EFFECT_NORMAL_MAPS]     = "normal-maps",
+        [EFFECT_MEASURED_BRDF]   = "measured-brdf",
+        [EFFECT_TINTED_SHADOWS]  = "tinted-shadows",
         [EFFECT_COLOR]           = "color",
     };
     return names[e];
@@ -30,10 +36,33 @@ static bool surfaces_are_colored(const scene *s)
 {
     for (int i = 0; i < s->material_count; i++) {
         const scene_material *m = &s->material_info[i];
-        if (m->used && !(is_grey(m->reflectance) && is_grey(m->emission)))
+        if (m->used && !(is_grey(m->reflectance) && is_grey(m->transmittance) &&
+                         is_grey(m->emission) && is_grey(s->materials[i]->absorption)))
             return true;
     }
     return false;
+}
+
+/* What the materials of surfaces call for. Where light is not followed on from surfaces (`back`),
+ * they count by what they let through and by what they give off. */
+static void add_materials(const scene *s, bool back, effects *all)
+{
+    bool *on = all->on;
+    for (int i = 0; i < s->material_count; i++) {
+        const scene_material *info = &s->material_info[i];
+        const material *m          = s->materials[i];
+        if (!info->used)
+            continue;
+        vec3 glow  = info->emission;
+        bool seen  = back || m->type->through || info->holes || v3_dot(glow, glow) > 0.0f;
+        bool sharp = !m->type->reflect && v3_dot(info->reflectance, info->reflectance) > 0.0f;
+        on[EFFECT_MIRRORS] |= back && sharp;
+        on[EFFECT_REFRACTION] |= back && m->solid;
+        on[EFFECT_TEXTURES] |= seen && info->textured;
+        on[EFFECT_NORMAL_MAPS] |= back && info->bumpy;
+        on[EFFECT_MEASURED_BRDF] |= (back || m->type->through) && info->file;
+        on[EFFECT_TINTED_SHADOWS] |= m->type->through || info->holes;
+    }
 }
 
 effects effects_of_grids(const scene *s, bool direct_only, bool outside)
@@ -53,7 +82,9 @@ effects effects_of_grids(const scene *s, bool direct_only, bool outside)
     on[EFFECT_AREA_LIGHTS]     = s->extended || s->emitter_count > 0;
     on[EFFECT_MANY_LIGHTS]     = s->light_count > ASKED_LAMPS && points;
     on[EFFECT_INTERREFLECTION] = back;
-    on[EFFECT_COLOR]           = s->lights_differ || (lit && surfaces_are_colored(s));
+    if (lit)
+        add_materials(s, back, &all);
+    on[EFFECT_COLOR] = s->lights_differ || (lit && surfaces_are_colored(s));
     for (int i = 0; i < s->set_count; i++)
         on[EFFECT_MANY_LIGHTS] |= s->sets[i].tree && (back || s->glows);
     return all;

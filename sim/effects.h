@@ -10,6 +10,12 @@ typedef enum effect {
     EFFECT_NEAR_FIELD,
     EFFECT_MANY_LIGHTS,
     EFFECT_INTERREFLECTION,
+    EFFECT_MIRRORS,    /* light that comes back to one direction each, off glass too */
+    EFFECT_REFRACTION, /* through solids */
+    EFFECT_TEXTURES,
+    EFFECT_NORMAL_MAPS,
+    EFFECT_MEASURED_BRDF,  /* tables, of glazing too */
+    EFFECT_TINTED_SHADOWS, /* light that goes straight through surfaces */
     EFFECT_COLOR,
     EFFECTS
 } effect;

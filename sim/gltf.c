@@ -20,6 +20,7 @@ static const char *const sentences[TALLY_KINDS] = {
     [TALLY_MORPH]       = "primitives have morph targets, which are ignored",
     [TALLY_SKIN]        = "nodes have a skin, which is ignored: they are in the rest pose",
     [TALLY_TINT]        = "colours of EXT_lights_ies go beyond 1: cut off there",
+    [TALLY_IOR]         = "materials have an index of refraction above 4: taken as 4",
 };
 
 void tally_add(reader *r, tally_kind kind, const char *pointer, ...)
@@ -57,15 +58,15 @@ static const char *const simulated[] = {
     "EXT_mesh_gpu_instancing",
     "KHR_materials_emissive_strength",
     "KHR_materials_transmission",
+    "KHR_materials_ior",
+    "KHR_materials_specular",
+    "KHR_materials_volume",
     "EXT_texture_webp",
     NULL,
 };
 
 /* They change looks alone: a scene is whole without them. */
 static const char *const looks[] = {
-    "KHR_materials_ior",
-    "KHR_materials_specular",
-    "KHR_materials_volume",
     "KHR_texture_transform",
     "KHR_materials_unlit",
     "KHR_materials_clearcoat",

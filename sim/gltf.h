@@ -16,15 +16,25 @@
 extern "C" {
 #endif
 
+struct material_textures; /* materials/look.h, which is no C++ */
+
+/* Constants are what textures are multiplied with. */
 typedef struct gltf_material {
-    const char *name; /* "" if it has none */
-    vec3 base_color;  /* linear, [0, 1]; textures as their mean, vertex colours left out */
-    float alpha;      /* of the base colour */
-    float metallic, roughness;
-    vec3 emission;      /* cd/m^2 in each channel (emissiveFactor, texture mean, strength) */
-    float transmission; /* KHR_materials_transmission */
-    bool textured;      /* some texture was taken as its mean colour */
-    bool cut;           /* alphaMode is MASK or BLEND */
+    const char *name;           /* "" if it has none */
+    vec3 base_color;            /* linear, [0, 1] */
+    float alpha;                /* [0, 1]; of alphaMode OPAQUE 1 */
+    float metallic, roughness;  /* [0, 1] */
+    vec3 emission;              /* cd/m^2 in each channel (emissiveFactor times strength) */
+    float transmission;         /* KHR_materials_transmission, [0, 1]; 0 */
+    float ior;                  /* KHR_materials_ior, 0 or [1, 4]; 1.5 */
+    float specular;             /* KHR_materials_specular, [0, 1]; 1 */
+    vec3 specular_color;        /* >= 0; 1 */
+    bool volume;                /* KHR_materials_volume with a thickness above 0: a solid */
+    float thickness;            /* m, of the surface as a shell; 0 */
+    float attenuation_distance; /* m, 1e-9 at least; INFINITY */
+    vec3 attenuation_color;     /* (0, 1]; 1 */
+    bool unlit;                 /* KHR_materials_unlit */
+    const struct material_textures *textures; /* NULL: none, and alphaMode is not MASK */
 } gltf_material;
 
 typedef struct gltf_mesh {

@@ -194,6 +194,8 @@ static bool walk_number(walker *w, const json_rule *rule)
             snprintf(range, sizeof range, "%g to %g", rule->low, rule->high);
         return wrong(w, found, range);
     }
+    if (rule->narrow && fabs(value) > 2147483647.0 && !strpbrk(found, ".eE"))
+        return wrong(w, found, "a whole number below 2^31, or one with an exponent");
     if (rule->multiple_of && fmod(value, rule->multiple_of) != 0) {
         char wanted[32];
         snprintf(wanted, sizeof wanted, "a multiple of %d", rule->multiple_of);

@@ -38,6 +38,7 @@ typedef struct json_rule {
     const char *among;              /* of JSON_TEXT: one of these, "a|b|c"; NULL: any */
     int multiple_of;                /* of JSON_SIZE; 0: any */
     double low, high;               /* of numbers, both included; low = high = 0: any */
+    bool narrow;                    /* of numbers: without fraction and exponent at most 2^31 - 1 */
     bool required;
     bool either; /* of the two that have this, one must be there at least */
     bool hide;   /* the key, its value checked, is overwritten: nobody else finds it */

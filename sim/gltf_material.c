@@ -2,6 +2,7 @@
 #include "core/image.h"
 #include "sim/gltf_source.h"
 
+#include <float.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -40,8 +41,8 @@ static bool picture_mean(const picture_work *w, uint32_t number, bool srgb, lux_
 }
 
 /* The mean of a texture; white if there is none. */
-static bool texture_mean(const picture_work *w, uint32_t material, const char *where,
-                         source_index texture, bool srgb, float mean[4], lux_error *err)
+static bool mean_colour(const picture_work *w, uint32_t material, const char *where,
+                        source_index texture, bool srgb, float mean[4], lux_error *err)
 {
     const reader *r = w->r;
     for (int c = 0; c < 4; c++)
@@ -73,36 +74,67 @@ static vec3 times(const double factor[3], const float mean[3], double strength)
                    (float)(factor[2] * (double)mean[2] * strength) };
 }
 
+/* Below it nothing of the light is left: their logarithms are finite. */
+static const float least_distance = 1e-9f;
+
+static void read_volume(const source_material *m, gltf_material *out)
+{
+    const double *c           = m->attenuation_color;
+    out->volume               = m->thickness > 0.0;
+    out->thickness            = (float)fmin(m->thickness, (double)FLT_MAX);
+    out->attenuation_distance = fmaxf((float)m->attenuation_distance, least_distance);
+    out->attenuation_color    = (vec3){ fmaxf((float)c[0], FLT_MIN), fmaxf((float)c[1], FLT_MIN),
+                                        fmaxf((float)c[2], FLT_MIN) };
+}
+
+static bool read_ior(reader *r, uint32_t number, gltf_material *out, lux_error *err)
+{
+    double ior = r->source->materials[number].ior;
+    if (ior > 0.0 && ior < 1.0)
+        return failed(
+            err, ERR_FORMAT,
+            "%s: /materials/%u/extensions/KHR_materials_ior/ior: %g, wanted 0, or 1 and more",
+            r->file->path, number, ior);
+    if (ior > 4.0)
+        tally_add(r, TALLY_IOR, "/materials/%u/extensions/KHR_materials_ior/ior", number);
+    out->ior = (float)fmin(ior, 4.0);
+    return true;
+}
+
 static bool read_material(const picture_work *w, uint32_t number, gltf_material *out,
                           lux_error *err)
 {
     const source_material *m = &w->r->source->materials[number];
     float base[4], surface[4], glow[4], clear[4];
-    if (!texture_mean(w, number, "pbrMetallicRoughness/baseColorTexture", m->base_texture, true,
-                      base, err) ||
-        !texture_mean(w, number, "pbrMetallicRoughness/metallicRoughnessTexture",
-                      m->surface_texture, false, surface, err) ||
-        !texture_mean(w, number, "emissiveTexture", m->emission_texture, true, glow, err) ||
-        !texture_mean(w, number, "extensions/KHR_materials_transmission/transmissionTexture",
-                      m->transmission_texture, false, clear, err))
+    if (!mean_colour(w, number, "pbrMetallicRoughness/baseColorTexture", m->base_texture, true,
+                     base, err) ||
+        !mean_colour(w, number, "pbrMetallicRoughness/metallicRoughnessTexture", m->surface_texture,
+                     false, surface, err) ||
+        !mean_colour(w, number, "emissiveTexture", m->emission_texture, true, glow, err) ||
+        !mean_colour(w, number, "extensions/KHR_materials_transmission/transmissionTexture",
+                     m->transmission_texture, false, clear, err))
         return false;
 
     *out = (gltf_material){
-        .name         = read_name(w->r, m->name, err),
-        .base_color   = times(m->base_color, base, 1.0),
-        .alpha        = (float)m->base_color[3] * base[3],
-        .metallic     = (float)m->metallic * surface[2],
-        .roughness    = (float)m->roughness * surface[1],
-        .emission     = times(m->emission, glow, m->strength),
-        .transmission = (float)m->transmission * clear[0],
-        .textured = m->base_texture >= 0 || m->surface_texture >= 0 || m->emission_texture >= 0 ||
-                    m->transmission_texture >= 0,
-        .cut = m->cut,
+        .name       = read_name(w->r, m->name, err),
+        .base_color = times(m->base_color, base, 1.0),
+        .alpha    = strcmp(m->alpha_mode, "OPAQUE") != 0 ? (float)m->base_color[3] * base[3] : 1.0f,
+        .metallic = (float)m->metallic * surface[2],
+        .roughness      = (float)m->roughness * surface[1],
+        .emission       = times(m->emission, glow, m->strength),
+        .transmission   = (float)m->transmission * clear[0],
+        .specular       = (float)m->specular,
+        .specular_color = (vec3){ (float)m->specular_color[0], (float)m->specular_color[1],
+                                  (float)m->specular_color[2] },
+        .unlit          = m->unlit,
     };
     const vec3 e = out->emission;
     if (!(isfinite(e.x) && isfinite(e.y) && isfinite(e.z)))
         return failed(err, ERR_FORMAT, "%s: /materials/%u/emissiveFactor: beyond every number",
                       w->r->file->path, number);
+    read_volume(m, out);
+    if (!read_ior(w->r, number, out, err))
+        return false;
     return out->name != NULL;
 }
 
@@ -117,9 +149,16 @@ bool read_materials(reader *r, lux_error *err)
         if (!read_material(&w, i, &r->out->materials[i], err))
             return false;
     /* glTF 2.0.1, section 3.9.6 and the schema's defaults */
-    r->out->materials[count] = (gltf_material){
-        .name = "", .base_color = { 1, 1, 1 }, .alpha = 1, .metallic = 1, .roughness = 1
-    };
-    r->out->material_count = count + 1;
+    r->out->materials[count] = (gltf_material){ .name                 = "",
+                                                .base_color           = { 1, 1, 1 },
+                                                .alpha                = 1,
+                                                .metallic             = 1,
+                                                .roughness            = 1,
+                                                .ior                  = 1.5f,
+                                                .specular             = 1,
+                                                .specular_color       = { 1, 1, 1 },
+                                                .attenuation_distance = INFINITY,
+                                                .attenuation_color    = { 1, 1, 1 } };
+    r->out->material_count   = count + 1;
     return true;
 }

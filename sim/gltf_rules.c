@@ -32,6 +32,7 @@ enum {
 #define UP_TO_1    .low = 0, .high = 1
 #define ABOVE_0    .low = DBL_MIN, .high = DBL_MAX
 /* Of whole numbers within extensions the library keeps 32 bits: the sun has 1.6e9 cd/m^2 */
+#define NARROW      .narrow = true
 #define UP_TO_INT   .low = 0, .high = 2e9
 #define ABOVE_0_INT .low = DBL_MIN, .high = 2e9
 #define COLOR       OF_3, .low = 0, .high = 1e6
@@ -123,8 +124,24 @@ static const json_rule strength[]     = { { "emissiveStrength", JSON_NUMBER, UP_
 static const json_rule transmission[] = { { "transmissionFactor", JSON_NUMBER, UP_TO_1 },
                                           OBJECT("transmissionTexture", texture_info),
                                           END };
+static const json_rule ior[]          = { { "ior", JSON_NUMBER, AT_LEAST_0, NARROW }, END };
+static const json_rule specular[]     = { { "specularFactor", JSON_NUMBER, UP_TO_1 },
+                                          OBJECT("specularTexture", texture_info),
+                                          { "specularColorFactor", JSON_NUMBERS, COLOR },
+                                          OBJECT("specularColorTexture", texture_info),
+                                          END };
+static const json_rule volume[]       = { { "thicknessFactor", JSON_NUMBER, AT_LEAST_0, NARROW },
+                                          OBJECT("thicknessTexture", texture_info),
+                                          { "attenuationDistance", JSON_NUMBER, ABOVE_0, NARROW },
+                                          { "attenuationColor", JSON_NUMBERS, OF_3, UP_TO_1 },
+                                          END };
 static const json_rule material_ext[] = { OBJECT("KHR_materials_emissive_strength", strength),
-                                          OBJECT("KHR_materials_transmission", transmission), END };
+                                          OBJECT("KHR_materials_transmission", transmission),
+                                          OBJECT("KHR_materials_ior", ior),
+                                          OBJECT("KHR_materials_specular", specular),
+                                          OBJECT("KHR_materials_volume", volume),
+                                          { "KHR_materials_unlit", JSON_OBJECT },
+                                          END };
 static const json_rule material[]     = { NAME,
                                           OBJECT("pbrMetallicRoughness", surface),
                                           OBJECT("normalTexture", texture_info),

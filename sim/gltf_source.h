@@ -100,10 +100,12 @@ typedef struct source_node {
 } source_node;
 
 typedef struct source_material {
-    const char *name;
-    double base_color[4], emission[3], metallic, roughness, strength, transmission;
+    const char *name, *alpha_mode;
+    double base_color[4], emission[3], specular_color[3], attenuation_color[3];
+    double metallic, roughness, strength, transmission, ior, specular;
+    double thickness, attenuation_distance; /* m; infinite if it is not said */
     source_index base_texture, surface_texture, emission_texture, transmission_texture;
-    bool cut;
+    bool unlit;
 } source_material;
 
 typedef struct source_camera {
@@ -184,6 +186,7 @@ typedef enum tally_kind {
     TALLY_MORPH,
     TALLY_SKIN,
     TALLY_TINT,
+    TALLY_IOR,
     TALLY_KINDS
 } tally_kind;
 

@@ -8,6 +8,7 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <memory>
 
@@ -135,8 +136,11 @@ void convert(const tinygltf::Material &from, source_material &to)
     const auto &surface = from.pbrMetallicRoughness;
     const Value *clear  = find(from.extensions, "KHR_materials_transmission");
     const Value *glow   = find(from.extensions, "KHR_materials_emissive_strength");
+    const Value *gloss  = find(from.extensions, "KHR_materials_specular");
+    const Value *volume = find(from.extensions, "KHR_materials_volume");
 
     to.name                 = from.name.c_str();
+    to.alpha_mode           = from.alphaMode.c_str();
     to.metallic             = surface.metallicFactor;
     to.roughness            = surface.roughnessFactor;
     to.strength             = number_in(glow, "emissiveStrength", 1.0);
@@ -145,7 +149,13 @@ void convert(const tinygltf::Material &from, source_material &to)
     to.surface_texture      = surface.metallicRoughnessTexture.index;
     to.emission_texture     = from.emissiveTexture.index;
     to.transmission_texture = index_in(member(clear, "transmissionTexture"), "index");
-    to.cut                  = from.alphaMode == "MASK" || from.alphaMode == "BLEND";
+    to.ior                  = number_in(find(from.extensions, "KHR_materials_ior"), "ior", 1.5);
+    to.specular             = number_in(gloss, "specularFactor", 1.0);
+    to.thickness            = number_in(volume, "thicknessFactor", 0.0);
+    to.attenuation_distance = number_in(volume, "attenuationDistance", HUGE_VAL);
+    to.unlit                = find(from.extensions, "KHR_materials_unlit") != nullptr;
+    color_in(gloss, "specularColorFactor", to.specular_color);
+    color_in(volume, "attenuationColor", to.attenuation_color);
     copy(surface.baseColorFactor, to.base_color);
     copy(from.emissiveFactor, to.emission);
 }

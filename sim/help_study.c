@@ -71,7 +71,17 @@ static const char text[] =
 "\n"
 "materials      a list; the last match wins; `lux4 check` lists the names\n"
 "  match        pattern         (!)         * any characters, ? any one\n"
-"  reflectance  0 to 1, RGB     (!)\n"
+"  reflectance  0 to 1, RGB                 matt; besides a lobe:\n"
+"    specular   0 to 1, RGB                   both add up to 1 at most\n"
+"    exponent   1 to 1e6                      (!) with specular\n"
+"  mirror       0 to 1, RGB                 in place of reflectance\n"
+"  brdf         path                        in place of it: .brdf, MERL .binary, LBNL .xml\n"
+"    up         DIRECTION       [0, 0, 1]     where the file's up or azimuth 0 points to\n"
+"    front      inside, outside inside        where the surface's front looks, of .xml\n"
+"  transmittance 0 to 1, RGB                in place of it: of a whole pane of clear glass,\n"
+"                                             square to it\n"
+"    ior        > 1 to 4        1.52          its index of refraction\n"
+"    pane       single, box     single        box: modelled as a closed box of glass\n"
 "\n"
 "grids          a list, each in one of three forms: on, origin or points\n"
 "  name         name            (!)         of its files\n"
@@ -102,8 +112,7 @@ static const char text[] =
 "               mapping is replaced, ~ takes a key out\n"
 "\n"
 "Not supported yet: site, when, sky models but none; room: windows; scene: exterior, portals;\n"
-"materials: specular, exponent, mirror, brdf, up, front, transmittance, ior, pane; views:\n"
-"fisheye, panorama.\n";
+"views: fisheye, panorama.\n";
 /* clang-format on */
 
 void help_study(FILE *to) { fputs(text, to); }

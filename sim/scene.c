@@ -76,8 +76,14 @@ static void say_what_surfaces_do(const scene_build *b, scene *s)
 {
     for (int i = 0; i < s->material_count; i++) {
         const scene_material *m = &s->material_info[i];
-        s->reflects |= m->used && !is_dark(m->reflectance);
-        s->glows |= m->used && !is_dark(m->emission);
+        if (!m->used)
+            continue;
+        s->reflects |= !is_dark(m->reflectance);
+        s->glows |= !is_dark(m->emission);
+        s->textured |= m->textured;
+        s->hollow |= material_is_hollow(s->materials[i]);
+        s->narrow |= !s->materials[i]->matt;
+        s->solids |= s->materials[i]->solid;
     }
     if (s->light_count == 0 && !s->glows)
         notice_add(b->notices, "%s: nothing gives light: every result will be 0 lx",
@@ -208,7 +214,8 @@ const scene *scene_new(arena *a, const study *from, const scene_options *o, noti
     if (!s || !read_files(&b) || !build_materials(&b) || !build_bounds(&b) || !build_bodies(&b))
         return NULL;
     s->world = build_world(&b);
-    if (!s->world || !build_lamps(&b) || !build_cameras(&b))
+    if (!s->world || !build_lamps(&b) || !build_cameras(&b) ||
+        !scene_textures(&b, &s->texture_bytes))
         return NULL;
 
     s->study          = from;
@@ -218,6 +225,8 @@ const scene *scene_new(arena *a, const study *from, const scene_options *o, noti
     s->material_count = (int)b.materials.count;
     s->materials      = b.materials.items;
     s->material_info  = b.material_info.items;
+    s->glow_watts     = b.glow_watts;
+    s->smooth         = b.smooth;
     s->lights_differ  = b.lights_differ;
     s->camera_count   = (int)b.cameras.count;
     s->cameras        = b.cameras.items;

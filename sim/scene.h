@@ -14,12 +14,18 @@
 #include "sim/gltf.h"
 #include "sim/study.h"
 
+/* Colours are means over textures, and of what is there where there are holes. */
 typedef struct scene_material {
-    const char *name; /* "room: walls" for those of the room */
-    vec3 reflectance; /* of diffuse light */
-    vec3 emission;    /* cd/m^2 */
-    bool overridden;  /* by the study's materials */
-    bool used;        /* some surface is made of it */
+    const char *name;     /* "room: walls" for those of the room */
+    const char *kind;     /* material_type.name */
+    const char *file;     /* of a measured table; NULL */
+    vec3 reflectance;     /* of diffuse light, on the front side */
+    vec3 transmittance;   /* of diffuse light, straight and scattered */
+    vec3 emission;        /* cd/m^2 */
+    bool textured, bumpy; /* it has textures; a normal map */
+    bool holes, box;      /* it has holes; of closed boxes of glass, each taken as one pane */
+    bool overridden;      /* by the study's materials */
+    bool used;            /* some surface is made of it */
 } scene_material;
 
 /* What paths need to know of a material without asking it. */
@@ -105,6 +111,14 @@ typedef struct scene {
 
     bool reflects;     /* some surface does */
     bool glows;        /* some surface emits light */
+    double glow_watts; /* W, not dimmed, of glowing surfaces that are no emitters: they have
+                          textures of emission or alpha, and only rays find them */
+    bool textured;     /* some surface has textures */
+    bool smooth;       /* some mesh has normals of its own */
+    bool hollow;       /* some surface lets light go straight through */
+    bool narrow;       /* some surface is not matt */
+    bool solids;       /* some surface is the border of a solid that refracts */
+    uint64_t texture_bytes;
     int small_patches; /* lamps that light a patch too small for samples to find reliably */
 } scene;
 

@@ -4,6 +4,8 @@
 
 #include "sim/scene.h"
 
+#include <string.h>
+
 /* A list that grows in an arena: what it outgrows stays there until the arena goes. */
 typedef struct list {
     void *items;
@@ -41,8 +43,11 @@ typedef struct scene_build {
     int32_t owner_count;
     list materials, material_info, lights, light_info, cameras, groups;
     list webs;                 /* const scene_web *, by name */
+    const void **tables;       /* of study->materials: brdf or bsdf, once it is read; NULL */
     list emitters, emitter_of; /* const light *; int32_t */
     int64_t *first_emitter;    /* as in the scene */
+    double glow_watts;         /* as in the scene */
+    bool smooth;               /* as in the scene */
     bool lights_differ;        /* in colour */
     dvec3 centre, low, high;   /* m, of the surfaces, in the user's frame */
 } scene_build;
@@ -64,6 +69,63 @@ bool build_lamps(scene_build *b);       /* scene_lamps.c: all that follow */
 bool build_luminaires(scene_build *b);  /* scene_luminaires.c */
 bool build_lights(scene_build *b);      /* scene_lights.c */
 bool build_gltf_lights(scene_build *b); /* scene_lights_gltf.c */
+
+/* ---- between the files that make materials --------------------------------------------------- */
+
+/* What the triangles of one material enclose, counted in bodies that hang together. */
+typedef struct glass_shapes {
+    uint32_t plates; /* closed and thin: panes modelled with both their sides */
+    uint32_t bodies; /* closed and thick */
+    uint32_t open;
+} glass_shapes;
+
+/* Of each material k of g with candidate[k], as it is first placed (scene_glass.c); NULL, with the
+ * error, if memory is out. */
+const glass_shapes *glass_shapes_of(scene_build *b, const gltf *g, const bool *candidate);
+
+/* Where a material comes from; a room's as glTF would have it. */
+typedef struct material_source {
+    const char *file; /* for messages */
+    const gltf_material *from;
+    const study_material *instead; /* the study's, in place of all but glow and holes; NULL */
+    const glass_shapes *glass;
+    double scale; /* of the study, metres to one of the file's */
+    bool used;    /* worth a word */
+} material_source;
+
+/* Fill in info.kind, file and box, and return the material; NULL with the error. */
+const material *material_of_gltf(scene_build *b, const material_source *s,
+                                 scene_material *info); /* scene_material_gltf.c */
+const material *material_of_study(scene_build *b, const material_source *s,
+                                  scene_material *info); /* scene_material_study.c */
+bool gltf_material_is_pane(const gltf_material *m);
+
+/* W/(sr m^2) and holes of a glTF material, with those of its textures. */
+material_extra material_extra_of(const gltf_material *m);
+
+/* By what a share (times the mean of its texture) is to be multiplied so that no surface gives back
+ * more light than any real one does; the user is told. */
+vec3 material_bounded(scene_build *b, const material_source *s, vec3 share, vec3 mean);
+
+/* What the textures of all materials keep, bytes: each counted once. */
+bool scene_textures(scene_build *b, uint64_t *bytes);
+
+/* Where the textures of a material stand: in *out, of `TEXTURE_SLOTS`. */
+enum { TEXTURE_SLOTS = 7 };
+static inline void texture_slots(const material_textures *t, texture_slot out[TEXTURE_SLOTS])
+{
+    const texture_slot all[] = { t->base,         t->surface,         t->emission,
+                                 t->transmission, t->specular_weight, t->specular_color,
+                                 t->normal };
+    memcpy(out, all, sizeof all);
+}
+
+/* Whether light goes straight through what is made of it, or through holes. */
+static inline bool material_is_hollow(const material *m)
+{
+    return m->type->through || m->look.openness > 0.0f ||
+           (m->textures && m->textures->alpha != ALPHA_OPAQUE);
+}
 
 /* ---- between the files that make lights ------------------------------------------------------ */
 

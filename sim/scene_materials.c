@@ -1,62 +1,111 @@
-/* sim/scene_materials.c -- the materials of room and glTF files, and what the study says of them.
- *
- * A rough, non-metallic glTF material is matt: its base colour is its diffuse reflectance. What
- * glTF says beyond that (metal, gloss, transmission) is left out until it is simulated, and the
- * user is told: the base colour is then all that counts.
+/* sim/scene_materials.c -- the materials of room and glTF files, and what the study says of them:
+ * which there are, which are used, and what is known of each. What glTF's are taken for:
+ * scene_material_gltf.c.
  */
 #include "core/color.h"
 #include "sim/scene_build.h"
+
+#include <stdlib.h>
 
 /* Light dies out nowhere in a closed room whose surfaces give all of it back, and its illuminance
  * has no finite value. The whitest surfaces there are, of sintered PTFE, reflect 99 %. */
 static const float most_reflectance = 0.995f;
 
-static vec3 bounded(scene_build *b, vec3 reflectance, bool used)
+static float bounded(float share, float mean)
 {
-    if (used && fmaxf(reflectance.x, fmaxf(reflectance.y, reflectance.z)) > most_reflectance)
+    return share * mean > most_reflectance ? most_reflectance / mean : share;
+}
+
+vec3 material_bounded(scene_build *b, const material_source *s, vec3 share, vec3 mean)
+{
+    vec3 to = { bounded(share.x, mean.x), bounded(share.y, mean.y), bounded(share.z, mean.z) };
+    if (s->used && (to.x < share.x || to.y < share.y || to.z < share.z))
         notice_add(b->notices,
                    "%s: some materials reflect more than 99.5 %%, as no real surface does: "
                    "taken as 99.5 %% (lux4 check lists them)",
                    b->study->path);
-    return (vec3){ fminf(reflectance.x, most_reflectance), fminf(reflectance.y, most_reflectance),
-                   fminf(reflectance.z, most_reflectance) };
+    return to;
 }
 
-static bool add(scene_build *b, const char *name, vec3 reflectance, vec3 emission, bool used)
+/* ---- what is known --------------------------------------------------------------------------- */
+
+static vec3 mean_emission(const material *m)
 {
-    bool overridden = false;
-    for (int i = 0; i < b->study->material_count; i++) { /* the last match wins */
-        const study_material *m = &b->study->materials[i];
-        if (study_match(m->match, name)) {
-            reflectance = m->reflectance;
-            overridden  = true;
-        }
-    }
-    reflectance          = bounded(b, reflectance, used);
-    diffuse_desc d       = { .reflectance    = reflectance,
-                             .extra.emission = v3_scale(emission, 1.0f / (float)LUMENS_PER_WATT) };
+    float mean[4] = { 1, 1, 1, 1 };
+    if (m->textures && m->textures->emission.texture)
+        texture_mean(m->textures->emission.texture, mean);
+    return v3_scale(v3_mul(m->look.emission, (vec3){ mean[0], mean[1], mean[2] }),
+                    (float)LUMENS_PER_WATT);
+}
+
+static void describe(const material *m, scene_material *info)
+{
+    const material_textures *t = m->textures;
+    info->kind                 = m->type->name;
+    info->reflectance          = m->reflectance;
+    info->transmittance        = m->transmittance;
+    info->emission             = mean_emission(m);
+    info->textured             = t != NULL;
+    info->bumpy                = t && t->normal.texture;
+    info->holes                = m->look.openness > 0.0f || (t && t->alpha != ALPHA_OPAQUE);
+}
+
+static bool add(scene_build *b, const material_source *s)
+{
     const material **m   = list_new(&b->materials, b->a, const material *, b->err);
     scene_material *info = list_new(&b->material_info, b->a, scene_material, b->err);
-    const material *made = m && info ? material_diffuse(b->a, &d, b->err) : NULL;
-    if (!made)
+    if (!m || !info)
         return false;
-    *m    = made;
-    *info = (scene_material){ name, reflectance, emission, overridden, used };
-    return true;
+    *info = (scene_material){ .name = s->from->name, .overridden = s->instead, .used = s->used };
+    *m    = s->instead ? material_of_study(b, s, info) : material_of_gltf(b, s, info);
+    if (*m)
+        describe(*m, info);
+    return *m != NULL;
 }
 
-static void tell_what_is_left_out(scene_build *b, const char *file, const gltf_material *m)
+/* ---- textures -------------------------------------------------------------------------------- */
+
+static int by_address(const void *one, const void *other)
 {
-    const char *name = m->name[0] ? m->name : "(unnamed)";
-    if (m->metallic > 0.0f || m->roughness < 0.5f)
-        notice_add(b->notices,
-                   "%s: material \"%s\": gloss and metal are not supported yet: taken as matt, its "
-                   "base colour as reflectance",
-                   file, name);
-    if (m->transmission > 0.0f || m->cut)
-        notice_add(b->notices,
-                   "%s: material \"%s\": transparency is not supported yet: taken as opaque", file,
-                   name);
+    uintptr_t a = (uintptr_t) * (const texture *const *)one;
+    uintptr_t b = (uintptr_t) * (const texture *const *)other;
+    return a < b ? -1 : a > b;
+}
+
+bool scene_textures(scene_build *b, uint64_t *bytes)
+{
+    const material *const *all = b->materials.items;
+    arena scratch              = { 0 };
+    size_t count               = 0;
+    const texture **found =
+        arena_array(&scratch, const texture *, TEXTURE_SLOTS * b->materials.count + 1, b->err);
+    for (size_t i = 0; found && i < b->materials.count; i++) {
+        texture_slot slots[TEXTURE_SLOTS];
+        if (!all[i]->textures)
+            continue;
+        texture_slots(all[i]->textures, slots);
+        for (int k = 0; k < TEXTURE_SLOTS; k++)
+            if (slots[k].texture)
+                found[count++] = slots[k].texture;
+    }
+    if (found)
+        qsort(found, count, sizeof *found, by_address);
+    for (size_t i = 0; i < count; i++)
+        if (i == 0 || found[i] != found[i - 1])
+            *bytes += texture_bytes(found[i]);
+    arena_clear(&scratch);
+    return found != NULL;
+}
+
+/* ---- patterns -------------------------------------------------------------------------------- */
+
+/* The last match wins. */
+static const study_material *match(const scene_build *b, const char *name)
+{
+    for (int i = b->study->material_count - 1; i >= 0; i--)
+        if (study_match(b->study->materials[i].match, name))
+            return &b->study->materials[i];
+    return NULL;
 }
 
 /* Each pattern must match something: a misspelt one would be ignored in silence. */
@@ -73,6 +122,37 @@ static bool all_patterns_match(scene_build *b)
                                 "`%s` matches no material (lux4 check lists them)", m->match);
     }
     return true;
+}
+
+/* ---- rooms and files ------------------------------------------------------------------------- */
+
+static bool add_side(scene_build *b, const char *name, vec3 reflectance)
+{
+    gltf_material *m = arena_new(b->a, gltf_material, b->err);
+    if (!m)
+        return false;
+    *m                      = (gltf_material){ .name           = name,
+                                               .base_color     = reflectance,
+                                               .alpha          = 1.0f,
+                                               .roughness      = 1.0f,
+                                               .ior            = 1.5f,
+                                               .specular       = 1.0f,
+                                               .specular_color = { 1, 1, 1 } };
+    const glass_shapes open = { .open = 1 };
+    return add(b, &(material_source){ .file    = b->study->path,
+                                      .from    = m,
+                                      .instead = match(b, name),
+                                      .glass   = &open,
+                                      .scale   = 1.0,
+                                      .used    = true });
+}
+
+static bool add_room(scene_build *b)
+{
+    const study_room *r = &b->study->room;
+    return !r->given ||
+           (add_side(b, "room: ceiling", r->ceiling) && add_side(b, "room: walls", r->walls) &&
+            add_side(b, "room: floor", r->floor));
 }
 
 /* Which materials of a file some placed triangle is made of: the others are not worth a word. */
@@ -92,33 +172,55 @@ static bool *used_materials(scene_build *b, const gltf *g)
     return used;
 }
 
-static bool add_file(scene_build *b, const char *file, const gltf *g)
+/* Lengths within materials are of one size only. */
+static void tell_of_scales(scene_build *b, int i, const gltf *g)
 {
+    bool lengths = false;
+    for (uint32_t k = 0; k < g->material_count; k++)
+        lengths |= g->materials[k].volume && isfinite(g->materials[k].attenuation_distance);
+    for (int j = i + 1; lengths && j < b->study->scene_count; j++)
+        if (b->files[j] == g && b->study->scenes[j].scale != b->study->scenes[i].scale)
+            notice_add(b->notices,
+                       "%s: stands at several scales: its solids absorb light as at the first",
+                       b->study->scenes[i].file);
+}
+
+static bool add_file(scene_build *b, int i)
+{
+    const gltf *g    = b->files[i];
     const bool *used = used_materials(b, g);
-    for (uint32_t k = 0; used && k < g->material_count; k++) {
-        const gltf_material *m = &g->materials[k];
-        if (!add(b, m->name, m->base_color, m->emission, used[k]))
-            return false;
-        if (used[k])
-            tell_what_is_left_out(b, file, m);
+    bool *panes      = used ? arena_array(b->a, bool, g->material_count, b->err) : NULL;
+    for (uint32_t k = 0; panes && k < g->material_count; k++) {
+        const study_material *instead = match(b, g->materials[k].name);
+        panes[k]                      = used[k] && (instead ? instead->surface == SURFACE_PANE
+                                                            : gltf_material_is_pane(&g->materials[k]));
     }
-    return used != NULL;
+    const glass_shapes *glass = panes ? glass_shapes_of(b, g, panes) : NULL;
+    for (uint32_t k = 0; glass && k < g->material_count; k++) {
+        material_source s = { .file    = b->study->scenes[i].file,
+                              .from    = &g->materials[k],
+                              .instead = match(b, g->materials[k].name),
+                              .glass   = &glass[k],
+                              .scale   = b->study->scenes[i].scale,
+                              .used    = used[k] };
+        if (!add(b, &s))
+            return false;
+    }
+    tell_of_scales(b, i, g);
+    return glass != NULL;
 }
 
 bool build_materials(scene_build *b)
 {
     const study *s  = b->study;
     uint32_t *first = arena_array(b->a, uint32_t, (size_t)s->scene_count + 1, b->err);
-    if (!first)
-        return false;
-    if (s->room.given && !(add(b, "room: ceiling", s->room.ceiling, (vec3){ 0 }, true) &&
-                           add(b, "room: walls", s->room.walls, (vec3){ 0 }, true) &&
-                           add(b, "room: floor", s->room.floor, (vec3){ 0 }, true)))
+    b->tables       = arena_array(b->a, const void *, (size_t)s->material_count + 1, b->err);
+    if (!first || !b->tables || !add_room(b))
         return false;
     for (int i = 0; i < s->scene_count; i++) {
         int before = scene_first_use(b, i);
         first[i]   = before < i ? first[before] : (uint32_t)b->materials.count;
-        if (before == i && !add_file(b, s->scenes[i].file, b->files[i]))
+        if (before == i && !add_file(b, i))
             return false;
     }
     b->first_material = first;

@@ -100,10 +100,29 @@ typedef struct study_light {
     study_emission emission;
 } study_light;
 
+typedef enum study_surface {
+    SURFACE_MATT,   /* reflectance; with specular and exponent a lobe on it */
+    SURFACE_MIRROR, /* mirror */
+    SURFACE_TABLE,  /* brdf */
+    SURFACE_BSDF,   /* brdf, a file *.xml */
+    SURFACE_PANE,   /* transmittance */
+} study_surface;
+
+/* What its surface has no key for is as it is initialised. */
 typedef struct study_material {
     study_where where;
     const char *match; /* * and ? */
-    vec3 reflectance;
+    study_surface surface;
+    vec3 reflectance;   /* diffuse, [0, 1] */
+    vec3 specular;      /* [0, 1], the sum of both too; {0,0,0} */
+    double exponent;    /* [1, 1e6]; NAN: no lobe */
+    vec3 mirror;        /* [0, 1] */
+    const char *brdf;   /* ready to open; NULL */
+    dvec3 up;           /* where the table's azimuth 0, or a file's up, points to; {0,0,1} */
+    bool front_outside; /* the triangles' front looks out, not into the room */
+    vec3 transmittance; /* of the whole pane at normal incidence, [0, pane_most(ior)] */
+    double ior;         /* (1, 4]; 1.52 */
+    bool box;           /* of a closed box of glass; not: of one surface */
 } study_material;
 
 /* What a sensor measures. With the light's direction w, its angle e to the vertical and its azimuth

@@ -5,13 +5,14 @@
 #include "sim/study_node.h"
 
 /* Values of top-level keys, read into a study. */
-study_read_fn study_read_room, study_read_scenes, study_read_materials; /* study_scene.c */
-study_read_fn study_read_luminaires;                                    /* study_luminaire.c */
-study_read_fn study_read_lights;                                        /* study_light.c */
-study_read_fn study_read_dimmings;                                      /* study_group.c */
-study_read_fn study_read_grids;                                         /* study_grid.c */
-study_read_fn study_read_views;                                         /* study_view.c */
-study_read_fn study_read_variants;                                      /* study_variant.c */
+study_read_fn study_read_room, study_read_scenes; /* study_scene.c */
+study_read_fn study_read_materials;               /* study_material.c */
+study_read_fn study_read_luminaires;              /* study_luminaire.c */
+study_read_fn study_read_lights;                  /* study_light.c */
+study_read_fn study_read_dimmings;                /* study_group.c */
+study_read_fn study_read_grids;                   /* study_grid.c */
+study_read_fn study_read_views;                   /* study_view.c */
+study_read_fn study_read_variants;                /* study_variant.c */
 
 /* What luminaires and lights share: their name, and what is in their `emission`. */
 /* clang-format off */

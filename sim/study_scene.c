@@ -1,4 +1,4 @@
-/* sim/study_scene.c -- what light falls on: `room`, `scene` and `materials` of a study. */
+/* sim/study_scene.c -- what light falls on: `room` and `scene` of a study. */
 #include "sim/study_read.h"
 
 /* ---- room ----------------------------------------------------------------------------------- */
@@ -75,36 +75,4 @@ bool study_read_scenes(const study_reader *r, const yaml_node_t *value, void *re
     s->scenes      = arena_new(r->a, study_scene, r->err);
     s->scene_count = 1;
     return s->scenes && read_scene(r, value, s->scenes);
-}
-
-/* ---- materials ------------------------------------------------------------------------------ */
-
-static bool read_material(const study_reader *r, const yaml_node_t *value, void *record)
-{
-    static const study_key table[] = {
-        { "match", STUDY_REQUIRED, study_read_text, offsetof(study_material, match) },
-        { "reflectance", STUDY_REQUIRED, study_read_reflectance,
-          offsetof(study_material, reflectance) },
-        { "specular", STUDY_NOT_YET },
-        { "exponent", STUDY_NOT_YET },
-        { "mirror", STUDY_NOT_YET },
-        { "brdf", STUDY_NOT_YET },
-        { "up", STUDY_NOT_YET },
-        { "front", STUDY_NOT_YET },
-        { "transmittance", STUDY_NOT_YET },
-        { "ior", STUDY_NOT_YET },
-        { "pane", STUDY_NOT_YET },
-    };
-    static const study_keys keys = STUDY_KEYS("a material", table);
-    study_material *m            = record;
-    *m                           = (study_material){ .where = study_node_where(value) };
-    return study_read_map(r, value, &keys, m);
-}
-
-bool study_read_materials(const study_reader *r, const yaml_node_t *value, void *record)
-{
-    study *s = record;
-    s->materials =
-        study_read_list(r, value, sizeof(study_material), read_material, &s->material_count);
-    return s->materials != NULL;
 }

@@ -1,0 +1,135 @@
+/* sim/scene_material_study.c -- materials as a study says they are.
+ *
+ * What the study says replaces all of what the scene's file says, textures too, but for the light
+ * that the surface gives off and for its holes.
+ */
+#include "materials/brdf.h"
+#include "materials/bsdf.h"
+#include "sim/scene_build.h"
+
+/* ---- what is kept ---------------------------------------------------------------------------- */
+
+/* false: memory is out. */
+static bool keep_extra(scene_build *b, const gltf_material *from, material_extra *extra)
+{
+    const material_textures *t = from->textures;
+    *extra                     = material_extra_of(from);
+    extra->textures            = NULL;
+    if (!t || (!t->emission.texture && t->alpha == ALPHA_OPAQUE))
+        return true;
+    material_textures *kept = arena_new(b->a, material_textures, b->err);
+    if (!kept)
+        return false;
+    *kept = (material_textures){
+        .emission = t->emission, .normal_scale = 1.0f, .alpha = t->alpha, .cutoff = t->cutoff
+    };
+    kept->alpha_only = true;
+    if (t->alpha != ALPHA_OPAQUE)
+        kept->base = t->base;
+    extra->textures = kept;
+    return true;
+}
+
+/* ---- makers ---------------------------------------------------------------------------------- */
+
+static const vec3 white = { 1, 1, 1 };
+
+static const material *make_matt(scene_build *b, const material_source *s,
+                                 const material_extra *extra)
+{
+    const study_material *m = s->instead;
+    vec3 d = m->reflectance, k = m->specular;
+    vec3 sum     = { d.x + k.x, d.y + k.y, d.z + k.z };
+    vec3 bounded = material_bounded(b, s, sum, white);
+    vec3 share = { sum.x > 0.0f ? bounded.x / sum.x : 1.0f, sum.y > 0.0f ? bounded.y / sum.y : 1.0f,
+                   sum.z > 0.0f ? bounded.z / sum.z : 1.0f };
+    if (isnan(m->exponent) || !(k.x > 0.0f || k.y > 0.0f || k.z > 0.0f))
+        return material_diffuse(b->a, &(diffuse_desc){ v3_mul(d, share), *extra }, b->err);
+    phong_desc p = { .reflectance = v3_mul(d, share),
+                     .specular    = v3_mul(k, share),
+                     .exponent    = (float)m->exponent,
+                     .extra       = *extra };
+    return material_phong(b->a, &p, b->err);
+}
+
+static void tell_of_boxes(scene_build *b, const material_source *s)
+{
+    const study_material *m = s->instead;
+    const glass_shapes *g   = s->glass;
+    const char *name        = s->from->name[0] ? s->from->name : "(unnamed)";
+    if (!s->used)
+        return;
+    if (!m->box && g->plates)
+        notice_add(b->notices,
+                   "%s:%d:%d: material \"%s\" has closed boxes of glass, each side of which is "
+                   "taken as a whole pane: say `pane: box`",
+                   b->study->path, m->where.line, m->where.column, name);
+    if (m->box && g->open)
+        notice_add(b->notices,
+                   "%s:%d:%d: `pane: box`, but material \"%s\" has surfaces that enclose nothing: "
+                   "from behind they are taken as not there",
+                   b->study->path, m->where.line, m->where.column, name);
+}
+
+static const material *make_pane(scene_build *b, const material_source *s,
+                                 const material_extra *extra, scene_material *info)
+{
+    const study_material *m = s->instead;
+    pane_desc d             = {
+                    .transmittance = m->transmittance, .ior = (float)m->ior, .box = m->box, .extra = *extra
+    };
+    info->box = m->box;
+    tell_of_boxes(b, s);
+    return material_pane(b->a, &d, b->err);
+}
+
+/* The table of an entry is read once, however many materials it fits. */
+static const void *table_of(scene_build *b, const study_material *m)
+{
+    const void **table = &b->tables[m - b->study->materials];
+    if (!*table)
+        *table = m->surface == SURFACE_BSDF
+                     ? (const void *)bsdf_read(b->a, m->brdf, b->notices, b->err)
+                     : (const void *)brdf_read(b->a, m->brdf, b->notices, b->err);
+    return *table;
+}
+
+static const material *make_measured(scene_build *b, const material_source *s,
+                                     const material_extra *extra, scene_material *info)
+{
+    const study_material *m = s->instead;
+    const void *table       = table_of(b, m);
+    vec3 up                 = d3_to_float(d3_scale(m->up, 1.0 / d3_length(m->up)));
+    info->file              = m->brdf;
+    if (!table)
+        return NULL;
+    if (m->surface == SURFACE_BSDF)
+        return material_bsdf(
+            b->a,
+            &(bsdf_desc){
+                .data = table, .up = up, .front_outside = m->front_outside, .extra = *extra },
+            b->err);
+    return material_brdf(b->a, &(brdf_desc){ .table = table, .up = up, .extra = *extra }, b->err);
+}
+
+const material *material_of_study(scene_build *b, const material_source *s, scene_material *info)
+{
+    const study_material *m = s->instead;
+    material_extra extra;
+    if (!keep_extra(b, s->from, &extra))
+        return NULL;
+    switch (m->surface) {
+    case SURFACE_MATT:
+        return make_matt(b, s, &extra);
+    case SURFACE_MIRROR: {
+        mirror_desc d = { material_bounded(b, s, m->mirror, white), extra };
+        return material_mirror(b->a, &d, b->err);
+    }
+    case SURFACE_PANE:
+        return make_pane(b, s, &extra, info);
+    case SURFACE_TABLE:
+    case SURFACE_BSDF:
+        break;
+    }
+    return make_measured(b, s, &extra, info);
+}

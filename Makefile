@@ -65,7 +65,10 @@ TESTS := $(patsubst %.c,$B/%,$(wildcard tests/*/test_*.c))
 LONG  := $(patsubst %.c,$B/%,$(wildcard tests/*/long_*.c))
 BENCH := $(patsubst %.c,$B/%,$(wildcard tests/bench/bench_*.c))
 FUZZERS := $(patsubst %.c,$B/%,$(wildcard tests/fuzz/fuzz_*.c))
+MODEL  := $(patsubst %.c,$B/%.c.o,$(wildcard data/model/*.c))
 OFFICE := $(patsubst %.c,$B/%.c.o,$(wildcard data/office/*.c))
+CAR    := $(patsubst %.c,$B/%.c.o,$(wildcard data/car/*.c))
+GLASS  := $(patsubst %.c,$B/%.c.o,$(wildcard data/glass/*.c))
 PROG  := $(patsubst sim/main.c,$B/lux4,$(wildcard sim/main.c))
 PLUG  := $(patsubst $(SHIM),$B/liblux4_oiio.so,$(wildcard $(SHIM)))
 TEXT  := $(wildcard $(foreach d,$(LAYERS) tests tests/* data/*,$d/*.[ch] $d/*.cpp))
@@ -100,11 +103,16 @@ $(FUZZERS): $B/%: $B/%.c.o $B/liblux4.a $B/links
 	@echo "LD   $@"
 	$Q$(CXX) $(LDFLAGS) $(filter %.o,$^) $(filter %.a,$^) $(LDLIBS) -o $@
 
-# The program that makes the office, and the test of what it makes
-$B/tests/unit/test_office: $(filter-out %/make_office.c.o,$(OFFICE))
-$B/make_office: $(OFFICE) $B/links
+# The programs that make the scenes we ship, and the tests of what they make
+MAKERS := $B/make_office $B/make_car $B/make_glass
+$B/make_office: $(OFFICE)
+$B/make_car: $(CAR)
+$B/make_glass: $(GLASS)
+$(MAKERS): $(MODEL) $B/links
 	@echo "LD   $@"
-	$Q$(CXX) $(SANS) $(OFFICE) -lm -o $@
+	$Q$(CXX) $(SANS) $(filter %.o,$^) -lm -o $@
+$B/tests/unit/test_office: $(filter-out %/make_office.c.o,$(OFFICE)) $(MODEL)
+$B/tests/unit/test_car_glass: $(filter-out %/make_car.c.o %/make_glass.c.o,$(CAR) $(GLASS)) $(MODEL)
 
 build/bench/office-%.glb: $B/make_office
 	@mkdir -p $(@D); $< --bench $* $@
@@ -143,7 +151,7 @@ $B/flags $B/links: FORCE
 	@mkdir -p $(@D); echo '$(subst ','\'',$(TELL))' | cmp -s - $@ || echo '$(subst ','\'',$(TELL))' > $@
 
 -include $(patsubst %,$B/%.d,$(SRC:=) $(AIDS) sim/main.c) $(addsuffix .c.d,$(TESTS) $(LONG) $(BENCH) $(FUZZERS))
--include $(PLUG:.so=.d) $(OFFICE:.o=.d) $(PLAIN_LIGHTS:.o=.d) $(PLAIN_TEXTURE:.o=.d)
+-include $(PLUG:.so=.d) $(patsubst %.o,%.d,$(MODEL) $(OFFICE) $(CAR) $(GLASS)) $(PLAIN_LIGHTS:.o=.d) $(PLAIN_TEXTURE:.o=.d)
 
 # What is missing is installed for check and demo, which set a machine up; else it is named.
 build/pkg.mk: Makefile

@@ -15,18 +15,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Places a shape once; returns the node. */
-static int put(model *m, int shape_index, point at, double turn_deg)
-{
-    const node n = { .shape = shape_index, .parent = NO_PARENT, .at = at, .turn_deg = turn_deg };
-    const int i  = model_add_node(m, n);
-    memcpy(m->nodes[i].name, m->shapes[shape_index].name, sizeof n.name);
-    return i;
-}
-
 static void put_in(model *m, int parent, int shape_index, point at, double turn_deg)
 {
-    m->nodes[put(m, shape_index, at, turn_deg)].parent = parent;
+    m->nodes[model_put(m, shape_index, at, turn_deg)].parent = parent;
 }
 
 /* ---- workplaces --------------------------------------------------------------------------- */
@@ -77,8 +68,8 @@ static void islands(model *m, double detail)
             workplace(m, &p, 4 * i + k, (point){ x + side * 0.42, y + (k % 2 ? 0.805 : -0.805), 0 },
                       side * 90.0);
         }
-        put(m, screen, (point){ x, y, 0 }, 0.0);
-        put(m, bin, (point){ x - 0.55, y - 1.85, 0 }, 0.0);
+        model_put(m, screen, (point){ x, y, 0 }, 0.0);
+        model_put(m, bin, (point){ x - 0.55, y - 1.85, 0 }, 0.0);
     }
 }
 
@@ -91,12 +82,12 @@ static void meeting_corner(model *m, double detail)
     const int chair             = model_add_shape(m, meeting_chair(detail));
     const point middle          = { 8.7, 3.9, 0.0 };
 
-    put(m, table, middle, 0.0);
+    model_put(m, table, middle, 0.0);
     for (int i = 0; i < COUNT(turns); i++) {
         const double a = turns[i] * 3.14159265358979323846 / 180.0, r = 0.72 + 0.05 * (i % 2);
         const point at = { middle.x + r * cos(a), middle.y + r * sin(a), 0.0 };
-        put(m, chair, (point){ round(at.x * 1e4) / 1e4, round(at.y * 1e4) / 1e4, 0.0 },
-            turns[i] + 90.0 + (i ? 0.0 : 14.0));
+        model_put(m, chair, (point){ round(at.x * 1e4) / 1e4, round(at.y * 1e4) / 1e4, 0.0 },
+                  turns[i] + 90.0 + (i ? 0.0 : 14.0));
     }
 }
 
@@ -109,15 +100,15 @@ static void along_walls(model *m, double detail)
     const int pillar   = model_add_shape(m, column(detail));
 
     for (int i = 0; i < 3; i++)
-        put(m, shelf[i % 2], (point){ 10.78, 2.85 + 0.903 * i, 0.0 }, 0.0);
+        model_put(m, shelf[i % 2], (point){ 10.78, 2.85 + 0.903 * i, 0.0 }, 0.0);
     for (int i = 0; i < 4; i++)
-        put(m, heat, (point){ 1.56 + 2.56 * i, 7.08, 0.0 }, 0.0);
-    put(m, greenery, (point){ 10.25, 6.45, 0.0 }, 20.0);
-    put(m, pillar, (point){ 7.35, 1.80, 0.0 }, 0.0);
-    put(m, pillar, (point){ 7.35, 6.00, 0.0 }, 0.0);
-    put(m, model_add_shape(m, coat_stand(detail)), (point){ 10.35, 0.42, 0.0 }, 10.0);
-    put(m, model_add_shape(m, whiteboard(detail)), (point){ 3.9, 0.0, 0.0 }, 0.0);
-    put(m, model_add_shape(m, wall_clock(detail)), (point){ 0.0, 3.9, 2.2 }, 0.0);
+        model_put(m, heat, (point){ 1.56 + 2.56 * i, 7.08, 0.0 }, 0.0);
+    model_put(m, greenery, (point){ 10.25, 6.45, 0.0 }, 20.0);
+    model_put(m, pillar, (point){ 7.35, 1.80, 0.0 }, 0.0);
+    model_put(m, pillar, (point){ 7.35, 6.00, 0.0 }, 0.0);
+    model_put(m, model_add_shape(m, coat_stand(detail)), (point){ 10.35, 0.42, 0.0 }, 10.0);
+    model_put(m, model_add_shape(m, whiteboard(detail)), (point){ 3.9, 0.0, 0.0 }, 0.0);
+    model_put(m, model_add_shape(m, wall_clock(detail)), (point){ 0.0, 3.9, 2.2 }, 0.0);
 }
 
 /* ---- the building ------------------------------------------------------------------------- */
@@ -136,30 +127,34 @@ static void suspended_ceiling(model *m, double detail)
               spot  = model_add_shape(m, downlight(detail));
 
     for (int j = 0; j < 9; j++)
-        put(m, along, (point){ 0.59, 1.2 + 0.6 * j, 2.9 }, 0.0);
+        model_put(m, along, (point){ 0.59, 1.2 + 0.6 * j, 2.9 }, 0.0);
     for (int i = 0; i < 15; i++)
-        put(m, cross, (point){ 1.2 + 0.6 * i, 0.59, 2.9007 }, 90.0);
+        model_put(m, cross, (point){ 1.2 + 0.6 * i, 0.59, 2.9007 }, 90.0);
     for (int j = 0; j < 10; j++)
-        put(m, tiles, (point){ 0.59, 0.9 + 0.6 * j, 2.905 }, 0.0);
+        model_put(m, tiles, (point){ 0.59, 0.9 + 0.6 * j, 2.905 }, 0.0);
     for (int i = 0; i < 6; i++)
-        put(m, lamp, (point){ panel_x[i % 3], panel_y[i / 3], 2.9043 }, 0.0);
+        model_put(m, lamp, (point){ panel_x[i % 3], panel_y[i / 3], 2.9043 }, 0.0);
     for (int i = 0; i < 3; i++)
-        put(m, spot, (point){ downlight_x, downlight_y[i], 2.905 }, 0.0);
+        model_put(m, spot, (point){ downlight_x, downlight_y[i], 2.905 }, 0.0);
 }
 
 static void building(model *m, double detail)
 {
-    put(m, model_add_shape(m, shell(detail)), (point){ 0 }, 0.0);
-    put(m, model_add_shape(m, skirting(detail)), (point){ 0 }, 0.0);
+    model_put(m, model_add_shape(m, shell(detail)), (point){ 0 }, 0.0);
+    model_put(m, model_add_shape(m, skirting(detail)), (point){ 0 }, 0.0);
     const int window = model_add_shape(m, window_frame(detail));
     for (int i = 0; i < 4; i++)
-        put(m, window, (point){ 1.56 + 2.56 * i, 7.2, 0.0 }, 0.0);
-    put(m, model_add_shape(m, door(detail)), (point){ 10.8, 1.2, 0.0 }, 0.0);
+        model_put(m, window, (point){ 1.56 + 2.56 * i, 7.2, 0.0 }, 0.0);
+    model_put(m, model_add_shape(m, door(detail)), (point){ 10.8, 1.2, 0.0 }, 0.0);
     suspended_ceiling(m, detail);
 }
 
 void office_build(model *m, double detail)
 {
+    m->title       = "Office";
+    m->maker       = "make_office";
+    m->paints      = office_paints;
+    m->paint_count = PAINT_COUNT;
     building(m, detail);
     islands(m, detail);
     meeting_corner(m, detail);
@@ -190,7 +185,11 @@ void bench_build(model *m, uint32_t triangles)
     model fine           = { 0 };
     const uint32_t under = triangles_at(low), over = triangles_at(high);
     office_build(&fine, triangles - under < over - triangles ? low : high);
-    put(m, model_add_shape(m, model_baked(&fine)), (point){ 0 }, 0.0);
+    m->title       = fine.title;
+    m->maker       = fine.maker;
+    m->paints      = fine.paints;
+    m->paint_count = fine.paint_count;
+    model_put(m, model_add_shape(m, model_baked(&fine)), (point){ 0 }, 0.0);
     for (int i = 0; i < fine.camera_count; i++)
         model_add_camera(m, fine.cameras[i]);
     m->overflow |= fine.overflow;

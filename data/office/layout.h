@@ -2,7 +2,7 @@
 #ifndef OFFICE_LAYOUT_H
 #define OFFICE_LAYOUT_H
 
-#include "data/office/model.h"
+#include "data/model/model.h"
 
 /* Furnishes an empty model. detail 1: the office as shipped; more: rounder, with more triangles. */
 void office_build(model *m, double detail);

@@ -38,18 +38,6 @@ static int finish(FILE *f, bool done, const char *path)
     return EXIT_FAILURE;
 }
 
-static int make_file(const char *folder, const char *name, bool (*write)(FILE *))
-{
-    char path[4096];
-    if (snprintf(path, sizeof path, "%s/%s", folder, name) >= (int)sizeof path) {
-        fprintf(stderr, "%s: too long\n", folder);
-        return EXIT_FAILURE;
-    }
-    FILE *f         = fopen(path, "wb");
-    const bool done = f && write(f);
-    return finish(f, done, path);
-}
-
 static int make_bench(const char *count, const char *path)
 {
     const unsigned long n = strtoul(count, NULL, 10);
@@ -70,7 +58,7 @@ int main(int argc, char **argv)
         fprintf(stderr, "make_office FOLDER | --bench TRIANGLES FILE.glb\n");
         return 2;
     }
-    return make_file(argv[1], "office.glb", write_office) |
-           make_file(argv[1], "panel.ldt", panel_write) |
-           make_file(argv[1], "downlight.ies", downlight_write);
+    return model_make_file(argv[1], "office.glb", write_office) |
+           model_make_file(argv[1], "panel.ldt", panel_write) |
+           model_make_file(argv[1], "downlight.ies", downlight_write);
 }

@@ -6,11 +6,9 @@
 #ifndef OFFICE_PARTS_H
 #define OFFICE_PARTS_H
 
-#include "data/office/solid.h"
+#include "data/office/paints.h"
 
 #include <stddef.h>
-
-#define COUNT(array) (int)(sizeof(array) / sizeof *(array))
 
 /* desk_parts.c: a workplace; its user looks along +y, the desk's middle is the origin. */
 shape desk(double detail);

@@ -63,13 +63,6 @@ shape meeting_chair(double detail)
 
 /* ---- shelves ------------------------------------------------------------------------------ */
 
-/* The next of a sequence of numbers in [0, 1), the same everywhere. */
-static double draw(uint32_t *seed)
-{
-    *seed = *seed * 1664525u + 1013904223u;
-    return (*seed >> 8) / 16777216.0;
-}
-
 /* Books from y = a to b on the board at z, backs flush within a centimetre or so. */
 static void book_row(shape *s, double a, double b, double z, uint32_t *seed)
 {
@@ -77,7 +70,7 @@ static void book_row(shape *s, double a, double b, double z, uint32_t *seed)
     for (double y = a; y < end - 0.075;) {
         const double thick = 0.055 + 0.058 * draw(seed), tall = 0.20 + 0.10 * draw(seed);
         const double deep = 0.17 + 0.07 * draw(seed);
-        s->ink            = (material)(BOOK_RED + (int)(draw(seed) * 6.0));
+        s->ink            = BOOK_RED + (int)(draw(seed) * 6.0);
         add_box(s, (point){ -0.31, y, z - 0.002 }, (point){ -0.31 + deep, y + thick, z + tall });
         y += thick + 0.0015;
     }

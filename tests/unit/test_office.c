@@ -1,6 +1,7 @@
 /* tests/unit/test_office.c -- the office as shipped is what its program makes, and is sound. */
 #define _GNU_SOURCE /* open_memstream */
 #include "data/office/layout.h"
+#include "data/office/paints.h"
 #include "data/office/web.h"
 #include "tests/test.h"
 
@@ -103,14 +104,14 @@ static double least_area(const patch *t, double *volume6)
 
 static void assert_sound(const shape *s)
 {
-    for (int k = 0; k < MATERIAL_COUNT; k++) {
+    for (int k = 0; k < PAINT_COUNT; k++) {
         const patch *t = &s->patches[k];
         double volume6;
         if (!t->triangle_count)
             continue;
         if (!patch_is_closed(t) || !(least_area(t, &volume6) > 1e-9) || !(volume6 > 0.0))
             fail_msg("%s, %s: open, inside out, or a triangle under 0.001 mm^2", s->name,
-                     paint_of((material)k)->name);
+                     office_paints[k].name);
     }
 }
 

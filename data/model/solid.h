@@ -1,52 +1,23 @@
-/* data/office/solid.h -- closed solids of triangles: boxes, slabs with holes, lathe work, tubes.
+/* data/model/solid.h -- closed solids of triangles: boxes, slabs with holes, lathe work, tubes.
  *
  * Metres, z up, corners counter-clockwise seen from outside. Every solid is a closed surface
  * whose triangles share corners by index, so that each edge is used once in either direction.
  * Coordinates are rounded to 10 micrometres: libraries of other machines that differ in the last
  * bit of a sine still give the same bytes.
  */
-#ifndef OFFICE_SOLID_H
-#define OFFICE_SOLID_H
+#ifndef MODEL_SOLID_H
+#define MODEL_SOLID_H
 
 #include <stdbool.h>
 #include <stdint.h>
+
+#define COUNT(array) (int)(sizeof(array) / sizeof *(array))
 
 typedef struct point {
     double x, y, z;
 } point;
 
-typedef enum material {
-    CARPET,
-    WALL,
-    ACCENT,
-    CEILING,
-    BAR,
-    CONCRETE,
-    NIGHT,
-    PAINT,
-    WOOD,
-    DOOR_WOOD,
-    METAL,
-    DARK_METAL,
-    PLASTIC,
-    BLACK,
-    FABRIC,
-    SEAT,
-    SCREEN,
-    DIFFUSER,
-    BOARD,
-    PAPER,
-    POT,
-    SOIL,
-    LEAF,
-    BOOK_RED,
-    BOOK_BLUE,
-    BOOK_GREEN,
-    BOOK_OCHRE,
-    BOOK_WHITE,
-    BOOK_BLACK,
-    MATERIAL_COUNT
-} material;
+enum { INK_MAX = 32 }; /* materials of a model */
 
 /* The triangles of one material. */
 typedef struct patch {
@@ -59,8 +30,8 @@ typedef struct patch {
  * holds for the solids that are added after. */
 typedef struct shape {
     char name[32];
-    patch patches[MATERIAL_COUNT];
-    material ink;
+    patch patches[INK_MAX];
+    int ink;                /* index of the material of what is added */
     double detail;          /* > 0: multiplies the number of segments of what is round */
     point origin, axis[3];  /* frame: where solids are put, orthonormal, right-handed */
     void (*warp)(point *p); /* bends what is added, before the frame; NULL: nothing */
@@ -120,5 +91,8 @@ typedef struct cushion {
 void add_cushion(shape *s, const cushion *c);
 
 uint32_t shape_triangles(const shape *s);
+
+/* The next of a sequence of numbers in [0, 1), the same everywhere. */
+double draw(uint32_t *seed);
 
 #endif

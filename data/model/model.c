@@ -1,42 +1,9 @@
-/* data/office/model.c -- see model.h: the tree of nodes, and all of it in one frame. */
-#include "data/office/model.h"
+/* data/model/model.c -- see model.h: the tree of nodes, and all of it in one frame. */
+#include "data/model/model.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
-
-static const paint paints[MATERIAL_COUNT] = {
-    [CARPET]     = { "Floor carpet", { 0.185, 0.200, 0.230 } },
-    [WALL]       = { "Wall paint", { 0.62, 0.60, 0.56 } },
-    [ACCENT]     = { "Wall accent", { 0.36, 0.46, 0.47 } },
-    [CEILING]    = { "Ceiling tile", { 0.80, 0.80, 0.79 } },
-    [BAR]        = { "Ceiling T-bar", { 0.72, 0.72, 0.71 } },
-    [CONCRETE]   = { "Concrete", { 0.42, 0.41, 0.39 } },
-    [NIGHT]      = { "Night", { 0.015, 0.018, 0.030 } },
-    [PAINT]      = { "White lacquer", { 0.76, 0.76, 0.74 } },
-    [WOOD]       = { "Desk wood", { 0.60, 0.44, 0.27 } },
-    [DOOR_WOOD]  = { "Door wood", { 0.40, 0.23, 0.12 } },
-    [METAL]      = { "Metal grey", { 0.40, 0.40, 0.41 } },
-    [DARK_METAL] = { "Metal dark", { 0.12, 0.12, 0.13 } },
-    [PLASTIC]    = { "Plastic grey", { 0.22, 0.22, 0.23 } },
-    [BLACK]      = { "Monitor black", { 0.030, 0.030, 0.032 } },
-    [FABRIC]     = { "Chair fabric", { 0.070, 0.085, 0.120 } },
-    [SEAT]       = { "Chair shell", { 0.55, 0.20, 0.08 } },
-    [SCREEN]     = { "Desk screen", { 0.25, 0.38, 0.36 } },
-    [DIFFUSER]   = { "Luminaire diffuser", { 0.84, 0.84, 0.84 } },
-    [BOARD]      = { "Whiteboard", { 0.80, 0.81, 0.81 } },
-    [PAPER]      = { "Paper", { 0.78, 0.77, 0.73 } },
-    [POT]        = { "Plant pot", { 0.42, 0.19, 0.11 } },
-    [SOIL]       = { "Plant soil", { 0.060, 0.045, 0.035 } },
-    [LEAF]       = { "Plant leaf", { 0.075, 0.230, 0.050 } },
-    [BOOK_RED]   = { "Book red", { 0.42, 0.06, 0.05 } },
-    [BOOK_BLUE]  = { "Book blue", { 0.06, 0.14, 0.38 } },
-    [BOOK_GREEN] = { "Book green", { 0.08, 0.26, 0.15 } },
-    [BOOK_OCHRE] = { "Book ochre", { 0.62, 0.42, 0.10 } },
-    [BOOK_WHITE] = { "Book white", { 0.74, 0.72, 0.66 } },
-    [BOOK_BLACK] = { "Book black", { 0.045, 0.045, 0.050 } },
-};
-
-const paint *paint_of(material m) { return &paints[m]; }
 
 int model_add_shape(model *m, shape s)
 {
@@ -57,6 +24,14 @@ int model_add_node(model *m, node n)
     }
     m->nodes[m->node_count] = n;
     return m->node_count++;
+}
+
+int model_put(model *m, int shape_index, point at, double turn_deg)
+{
+    const node n = { .shape = shape_index, .parent = NO_PARENT, .at = at, .turn_deg = turn_deg };
+    const int i  = model_add_node(m, n);
+    memcpy(m->nodes[i].name, m->shapes[shape_index].name, sizeof n.name);
+    return i;
 }
 
 void model_add_camera(model *m, camera c)
@@ -121,11 +96,26 @@ static void bake_patch(const model *m, int n, const patch *t, shape *to)
 
 shape model_baked(const model *m)
 {
-    shape all = shape_new("Office", 1.0);
+    shape all = shape_new(m->title, 1.0);
     for (int i = 0; i < m->node_count; i++)
-        for (int k = 0; k < MATERIAL_COUNT && m->nodes[i].shape != NO_SHAPE; k++) {
-            all.ink = (material)k;
+        for (int k = 0; k < INK_MAX && m->nodes[i].shape != NO_SHAPE; k++) {
+            all.ink = k;
             bake_patch(m, i, &m->shapes[m->nodes[i].shape].patches[k], &all);
         }
     return all;
+}
+
+int model_make_file(const char *folder, const char *name, bool (*write)(FILE *to))
+{
+    char path[4096];
+    if (snprintf(path, sizeof path, "%s/%s", folder, name) >= (int)sizeof path) {
+        fprintf(stderr, "%s: too long\n", folder);
+        return EXIT_FAILURE;
+    }
+    FILE *f         = fopen(path, "wb");
+    const bool done = f && write(f);
+    if (f && fclose(f) == 0 && done)
+        return EXIT_SUCCESS;
+    perror(path);
+    return EXIT_FAILURE;
 }

@@ -1,5 +1,5 @@
-/* data/office/solid.c -- see solid.h. */
-#include "data/office/solid.h"
+/* data/model/solid.c -- see solid.h. */
+#include "data/model/solid.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -19,7 +19,7 @@ shape shape_new(const char *name, double detail)
 
 void solid_clear(shape *s)
 {
-    for (int m = 0; m < MATERIAL_COUNT; m++) {
+    for (int m = 0; m < INK_MAX; m++) {
         free(s->patches[m].xyz);
         free(s->patches[m].corners);
         s->patches[m] = (patch){ 0 };
@@ -89,9 +89,15 @@ static void quad(shape *s, uint32_t a, uint32_t b, uint32_t c, uint32_t d)
 uint32_t shape_triangles(const shape *s)
 {
     uint32_t n = 0;
-    for (int m = 0; m < MATERIAL_COUNT; m++)
+    for (int m = 0; m < INK_MAX; m++)
         n += s->patches[m].triangle_count;
     return n;
+}
+
+double draw(uint32_t *seed)
+{
+    *seed = *seed * 1664525u + 1013904223u;
+    return (*seed >> 8) / 16777216.0;
 }
 
 /* ---- boxes and plates ------------------------------------------------------------------- */

@@ -70,6 +70,10 @@ typedef struct lathe {
     bool closed;
 } lathe;
 void add_lathe(shape *s, const lathe *l);
+
+/* The same, the profile being a curve with `per` points between knots: see curve_points(). A
+ * profile of 512 points has no room and adds nothing. */
+void add_turned(shape *s, const lathe *l, int per);
 void add_cylinder(shape *s, point base, double radius, double height, int segments);
 
 /* Around a path of count >= 2 points, capped at both ends. */
@@ -91,6 +95,13 @@ typedef struct cushion {
 void add_cushion(shape *s, const cushion *c);
 
 uint32_t shape_triangles(const shape *s);
+
+/* Uniform cubic B-splines: smooth curves near their knots, which they reach at both ends and where
+ * three knots coincide. At most (count + 1) * per + 1 points; returns how many. */
+int curve_points(const double (*knots)[2], int count, int per, double (*out)[2]);
+
+/* The height at x of such a curve over knots that are `step` apart, from `first` on. */
+double curve_at(const double *knots, int count, double first, double step, double x);
 
 /* The next of a sequence of numbers in [0, 1), the same everywhere. */
 double draw(uint32_t *seed);

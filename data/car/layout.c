@@ -3,8 +3,6 @@
 
 #include <math.h>
 
-static void put_once(model *m, shape s) { model_put(m, model_add_shape(m, s), (point){ 0 }, 0.0); }
-
 void car_build(model *m)
 {
     m->title       = "Car";
@@ -12,11 +10,11 @@ void car_build(model *m)
     m->paints      = car_paints;
     m->paint_count = PAINT_COUNT;
 
-    put_once(m, car_studio());
-    put_once(m, car_body());
-    put_once(m, car_lamps());
-    put_once(m, car_trimmings());
-    put_once(m, car_inside());
+    model_put_new(m, car_studio(), (point){ 0 }, 0.0);
+    model_put_new(m, car_body(), (point){ 0 }, 0.0);
+    model_put_new(m, car_lamps(), (point){ 0 }, 0.0);
+    model_put_new(m, car_trimmings(), (point){ 0 }, 0.0);
+    model_put_new(m, car_inside(), (point){ 0 }, 0.0);
 
     const int wheel = model_add_shape(m, car_wheel()), liner = model_add_shape(m, car_liner());
     for (int i = 0; i < 4; i++) {

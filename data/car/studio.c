@@ -36,8 +36,8 @@ static shape background(void)
         cells[i] = '#';
     shape s = shape_new("Background", 1.0);
     shape_at(&s, (point){ 0 }, TURN_DEG, 0.0);
-    s.ink   = FLOOR;
-    s.warp  = cove;
+    s.ink  = FLOOR;
+    s.warp = cove;
     add_plate(&s, &(plate){ 2, 2, LINES, x, y, cells, -0.02, 0.0 });
     s.warp = NULL;
     return s;

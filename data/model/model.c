@@ -1,6 +1,7 @@
 /* data/model/model.c -- see model.h: the tree of nodes, and all of it in one frame. */
 #include "data/model/model.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -32,6 +33,11 @@ int model_put(model *m, int shape_index, point at, double turn_deg)
     const int i  = model_add_node(m, n);
     memcpy(m->nodes[i].name, m->shapes[shape_index].name, sizeof n.name);
     return i;
+}
+
+int model_put_new(model *m, shape s, point at, double turn_deg)
+{
+    return model_put(m, model_add_shape(m, s), at, turn_deg);
 }
 
 void model_add_camera(model *m, camera c)
@@ -105,17 +111,48 @@ shape model_baked(const model *m)
     return all;
 }
 
-int model_make_file(const char *folder, const char *name, bool (*write)(FILE *to))
+/* The path is for messages, and has 4096 bytes. */
+static FILE *open_in(const char *folder, const char *name, char *path)
 {
-    char path[4096];
-    if (snprintf(path, sizeof path, "%s/%s", folder, name) >= (int)sizeof path) {
-        fprintf(stderr, "%s: too long\n", folder);
-        return EXIT_FAILURE;
-    }
-    FILE *f         = fopen(path, "wb");
-    const bool done = f && write(f);
+    if (snprintf(path, 4096, "%s/%s", folder, name) < 4096)
+        return fopen(path, "wb");
+    errno = ENAMETOOLONG;
+    return NULL;
+}
+
+static int finish(FILE *f, bool done, const char *path)
+{
     if (f && fclose(f) == 0 && done)
         return EXIT_SUCCESS;
     perror(path);
     return EXIT_FAILURE;
+}
+
+int model_make_file(const char *folder, const char *name, bool (*write)(FILE *to))
+{
+    char path[4096];
+    FILE *f         = open_in(folder, name, path);
+    const bool done = f && write(f);
+    return finish(f, done, path);
+}
+
+int model_make(const char *folder, const char *name, void (*build)(model *m))
+{
+    char path[4096];
+    model m = { 0 };
+    build(&m);
+    fprintf(stderr, "%u triangles, %d shapes, %d nodes\n", model_triangles(&m), m.shape_count,
+            m.node_count);
+    FILE *f         = open_in(folder, name, path);
+    const bool done = f && model_write_glb(&m, f);
+    model_clear(&m);
+    return finish(f, done, path);
+}
+
+int model_main(int argc, char **argv, const char *name, void (*build)(model *m))
+{
+    if (argc == 2 && argv[1][0] != '-')
+        return model_make(argv[1], name, build);
+    fprintf(stderr, "%s FOLDER: writes FOLDER/%s\n", argv[0], name);
+    return 2;
 }

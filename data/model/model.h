@@ -77,6 +77,7 @@ void model_clear(model *m);
 
 /* Places a shape by a node of its name; returns the node. */
 int model_put(model *m, int shape_index, point at, double turn_deg);
+int model_put_new(model *m, shape s, point at, double turn_deg);
 
 /* Triangles as placed: a shape counts as often as nodes show it. */
 uint32_t model_triangles(const model *m);
@@ -89,6 +90,10 @@ bool model_write_glb(const model *m, FILE *to);
 
 /* Makes folder/name by write(). EXIT_SUCCESS, or EXIT_FAILURE having told why. */
 int model_make_file(const char *folder, const char *name, bool (*write)(FILE *to));
+
+/* The same of a model, with a line about its size; and a whole program that takes the folder. */
+int model_make(const char *folder, const char *name, void (*build)(model *m));
+int model_main(int argc, char **argv, const char *name, void (*build)(model *m));
 
 /* ---- parts of model_write_glb() ---- */
 

@@ -9,16 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool write_office(FILE *to)
-{
-    model m = { 0 };
-    office_build(&m, 1.0);
-    const bool done = model_write_glb(&m, to);
-    fprintf(stderr, "%u triangles, %d shapes, %d nodes\n", model_triangles(&m), m.shape_count,
-            m.node_count);
-    model_clear(&m);
-    return done;
-}
+static void build(model *m) { office_build(m, 1.0); }
 
 static bool write_bench(FILE *to, uint32_t triangles)
 {
@@ -58,7 +49,7 @@ int main(int argc, char **argv)
         fprintf(stderr, "make_office FOLDER | --bench TRIANGLES FILE.glb\n");
         return 2;
     }
-    return model_make_file(argv[1], "office.glb", write_office) |
+    return model_make(argv[1], "office.glb", build) |
            model_make_file(argv[1], "panel.ldt", panel_write) |
            model_make_file(argv[1], "downlight.ies", downlight_write);
 }

@@ -12,7 +12,7 @@
 #define TURN 6.28318530717958647692
 #define SNAP 4e-4 /* m: an outline that passes a corner so near goes through it */
 
-enum { STATIONS = 212, AROUND = 144, TABLE = 1 << 18 };
+enum { STATIONS = 192, AROUND = 132, TABLE = 1 << 18 };
 
 typedef struct body {
     shape of;

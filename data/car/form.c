@@ -12,7 +12,7 @@
 #define QUARTER      1.57079632679489661923
 #define HALF_LENGTH  2.25 /* m */
 #define CABIN_FLOOR  0.35
-#define CABIN_LENGTH 2.15 /* half of what the roof line can reach, about x = -0.35 */
+#define CABIN_LENGTH 1.9 /* half of what the roof line can reach, about x = -0.35 */
 #define BLEND        0.07
 
 /* Knots from x = -2.5 (behind the tail) to 2.5 m, every 0.25 m */

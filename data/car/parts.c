@@ -33,7 +33,7 @@ static void door_mirror(shape *s, double side)
 
 static void handle(shape *s, double side)
 {
-    const double y     = side * 0.862;
+    const double y     = side * 0.813;
     const point grip[] = { { -0.20, y - side * 0.03, 0.735 },
                            { -0.19, y, 0.742 },
                            { -0.165, y + side * 0.012, 0.745 },
@@ -83,7 +83,7 @@ static void front(shape *s)
         add_tube(s, &(tube){ path, POINTS, 10, 0.0045, 0 });
     }
     s->ink = PLATE;
-    add_box(s, (point){ 2.235, -0.26, 0.31 }, (point){ 2.262, 0.26, 0.42 });
+    add_box(s, (point){ 2.232, -0.24, 0.385 }, (point){ 2.258, 0.24, 0.485 });
     add_box(s, (point){ -2.262, -0.26, 0.46 }, (point){ -2.235, 0.26, 0.57 });
 }
 

@@ -25,7 +25,7 @@ shape dining_chair(void)
         const double x = side_of(i & 1) * 0.19, y = side_of(i & 2) * 0.18,
                      top  = i & 2 ? 0.44 : 0.92;
         const point leg[] = { { x, y, 0.013 }, { x, y, 0.42 }, { x, y - (i & 2 ? 0 : 0.05), top } };
-        add_tube(&s, &(tube){ leg, 3, 12, 0.019, 0.016 });
+        add_tube(&s, &(tube){ leg, 3, 8, 0.019, 0.016 });
     }
     for (int i = 0; i < 2; i++)
         add_box(&s, (point){ -0.19, -0.238 + 0.02 * i, 0.62 + 0.18 * i - 0.02 * i },

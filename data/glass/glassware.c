@@ -2,13 +2,13 @@
  * down the inside. */
 #include "data/glass/glass.h"
 
-enum { ROUND = 48 };
+enum { ROUND = 40 };
 
 static shape turned(const char *name, int ink, const double (*rz)[2], int count)
 {
     shape s = shape_new(name, 1.0);
     s.ink   = ink;
-    add_turned(&s, &(lathe){ rz, count, ROUND, false }, 3);
+    add_turned(&s, &(lathe){ rz, count, ROUND, false }, 2);
     return s;
 }
 
@@ -58,8 +58,8 @@ shape glass_ball(void)
                                 .half       = { 0.06, 0.06, 0.06 },
                                 .squareness = 1.0,
                                 .edge       = 1.0,
-                                .segments   = 64,
-                                .rings      = 32 });
+                                .segments   = 48,
+                                .rings      = 24 });
     return s;
 }
 
@@ -70,8 +70,8 @@ shape glass_block(void)
     s.ink   = AMBER;
     add_cushion(&s, &(cushion){ .centre     = { 0, 0, 0.041 },
                                 .half       = { 0.055, 0.040, 0.040 },
-                                .squareness = 0.12,
-                                .edge       = 0.12,
+                                .squareness = 0.2,
+                                .edge       = 0.2,
                                 .segments   = 32,
                                 .rings      = 24 });
     return s;

@@ -49,7 +49,7 @@ shape window_frame(void)
 /* Hung in folds, which are deeper below. */
 shape curtain(void)
 {
-    enum { ACROSS = 120, DOWN = 16 };
+    enum { ACROSS = 120, DOWN = 14 };
     shape s = shape_new("Curtain", 1.0);
     s.ink   = LACE;
     for (int j = 0; j <= DOWN; j++)
@@ -123,7 +123,7 @@ shape pendant(void)
     };
     shape s = shape_new("Pendant", 1.0);
     s.ink   = LACQUER;
-    add_lathe(&s, &(lathe){ shade, COUNT(shade), 64, true });
+    add_lathe(&s, &(lathe){ shade, COUNT(shade), 48, true });
     s.ink = STEEL;
     add_cylinder(&s, (point){ 0, 0, 0.155 }, 0.034, 0.05, 24);
     add_cylinder(&s, (point){ 0, 0, 0.20 }, 0.004, 0.80, 12);

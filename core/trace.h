@@ -93,7 +93,7 @@ enum { MAILBOXES = 8 };
 /* One packet (trace_packet.c). */
 void trace_packet_first(const world *w, const vray *ray, vmask active, vhit *hit);
 vmask trace_packet_any(const world *w, const vray *ray, vmask active, vint spare);
-void trace_packet_all(const world *w, const vray *ray, vmask active, hit_list *list);
+void trace_packet_all(const world *w, const vray *ray, vmask active, vint spare, hit_list *list);
 
 /* A batch, in packets of rays that go the same way (trace_sorted.c). */
 void trace_sorted_first(const world *w, const vray *rays, const vmask *active, int packets,

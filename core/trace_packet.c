@@ -122,7 +122,7 @@ typedef struct query {
     const world *w;
     const vray *ray;
     vfloat limit; /* farther is of no use; -INFINITY: nothing is */
-    vint spare;   /* ANY_HIT: instances of this owner are not there; 0: all are */
+    vint spare;   /* instances of this owner are not there; 0: all are */
     vint instance, triangle;
     vfloat u, v;
     hit_list *list;
@@ -298,7 +298,7 @@ INLINE vvec3 turned(const float m[3][4], vvec3 a)
 /* The lanes that see an instance of a trait that the query is wary of. */
 static vmask seeing(const query *q, query_kind kind, const placed *at)
 {
-    if (kind == ALL_HITS || at->traits & TRAIT_HOLLOW)
+    if (at->traits & (kind == ALL_HITS ? TRAIT_SOLID : TRAIT_HOLLOW))
         return ~ALL_LANES;
     return ~(q->spare == vsplat_int(at->owner));
 }
@@ -405,11 +405,12 @@ vmask trace_packet_any(const world *w, const vray *ray, vmask active, vint spare
     return active & (q.limit < 0.0f);
 }
 
-void trace_packet_all(const world *w, const vray *ray, vmask active, hit_list *list)
+void trace_packet_all(const world *w, const vray *ray, vmask active, vint spare, hit_list *list)
 {
     query q  = query_make(w, ray, active);
     q.list   = list;
-    q.wary   = list->kind == LIST_HOLLOW ? TRAIT_SOLID : 0;
+    q.spare  = spare;
+    q.wary   = list->kind == LIST_HOLLOW ? TRAIT_SOLID | TRAIT_OWNED : 0;
     q.hollow = list->kind == LIST_EVERY ? TRAIT_SOLID | TRAIT_HOLLOW : TRAIT_HOLLOW;
     walk_world(&q, ALL_HITS, active);
 }

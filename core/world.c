@@ -219,8 +219,8 @@ void world_any_hit(const world *w, const vray *rays, const vmask *active, const 
             blocked[i] = trace_packet_any(w, &rays[i], active[i], spare ? spare[i] : vsplat_int(0));
 }
 
-static bool list_hits(const world *w, const vray *rays, const vmask *active, int packets, int most,
-                      list_kind kind, vhit *hits)
+static bool list_hits(const world *w, const vray *rays, const vmask *active, const vint *spare,
+                      int packets, int most, list_kind kind, vhit *hits)
 {
     bool all = true;
     for (int i = 0; i < packets; i++) {
@@ -230,7 +230,7 @@ static bool list_hits(const world *w, const vray *rays, const vmask *active, int
                                    .instance = vsplat_int(-1),
                                    .triangle = vsplat_int(-1) };
         if (kind != LIST_HOLLOW || w->hollow)
-            trace_packet_all(w, &rays[i], active[i], &list);
+            trace_packet_all(w, &rays[i], active[i], spare ? spare[i] : vsplat_int(0), &list);
         for (int lane_number = 0; lane_number < LANES; lane_number++) {
             if (list.dropped[lane_number] && !list.stopped[lane_number])
                 all = false;
@@ -244,17 +244,17 @@ static bool list_hits(const world *w, const vray *rays, const vmask *active, int
 bool world_all_hits(const world *w, const vray *rays, const vmask *active, int packets, int most,
                     vhit *hits)
 {
-    return list_hits(w, rays, active, packets, most, LIST_TO_SOLID, hits);
+    return list_hits(w, rays, active, NULL, packets, most, LIST_TO_SOLID, hits);
 }
 
-bool world_hollow_hits(const world *w, const vray *rays, const vmask *active, int packets, int most,
-                       vhit *hits)
+bool world_hollow_hits(const world *w, const vray *rays, const vmask *active, const vint *spare,
+                       int packets, int most, vhit *hits)
 {
-    return list_hits(w, rays, active, packets, most, LIST_HOLLOW, hits);
+    return list_hits(w, rays, active, spare, packets, most, LIST_HOLLOW, hits);
 }
 
 bool world_every_hit(const world *w, const vray *rays, const vmask *active, int packets, int most,
                      vhit *hits)
 {
-    return list_hits(w, rays, active, packets, most, LIST_EVERY, hits);
+    return list_hits(w, rays, active, NULL, packets, most, LIST_EVERY, hits);
 }

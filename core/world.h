@@ -95,9 +95,10 @@ void world_any_hit(const world *w, const vray *rays, const vmask *active, const 
 bool world_all_hits(const world *w, const vray *rays, const vmask *active, int packets, int most,
                     vhit *hits);
 
-/* Hollow instances alone, as if the others were not there. */
-bool world_hollow_hits(const world *w, const vray *rays, const vmask *active, int packets, int most,
-                       vhit *hits);
+/* Hollow instances alone, as if the others were not there, nor those that `spare` names, as for
+ * any_hit. */
+bool world_hollow_hits(const world *w, const vray *rays, const vmask *active, const vint *spare,
+                       int packets, int most, vhit *hits);
 
 /* The same as if all instances were hollow: whatever lies on the ray's line within its reach. */
 bool world_every_hit(const world *w, const vray *rays, const vmask *active, int packets, int most,

@@ -66,8 +66,10 @@ static bool of_gltf(const scene *s, const study_view *v, camera *c, lux_error *e
 
 bool camera_of_view(const scene *s, const study_view *v, camera *out, lux_error *err)
 {
-    *out = (camera){ .width = v->width, .height = v->height };
-    return v->camera ? of_gltf(s, v, out, err) : of_eye_and_target(s, v, out, err);
+    *out        = (camera){ .width = v->width, .height = v->height };
+    bool good   = v->camera ? of_gltf(s, v, out, err) : of_eye_and_target(s, v, out, err);
+    out->spread = out->perspective ? 2.0f * v3_length(out->up) / (float)out->height : 0.0f;
+    return good;
 }
 
 vray camera_ray(const camera *c, vfloat x, vfloat y)

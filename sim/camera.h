@@ -10,6 +10,7 @@ typedef struct camera {
     vec3 eye;                /* m, in the scene's frame */
     vec3 right, up, forward; /* perspective: to the edges of the picture at unit distance;
                                 orthographic: m, half the picture; forward is unit */
+    float spread;            /* rad: of a pixel at the middle of the picture; orthographic: 0 */
 } camera;
 
 /* The camera of a view: its own eye and target, or the glTF camera that it names. False, with

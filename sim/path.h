@@ -10,12 +10,12 @@
  *     L(x, w) = L_emitted(y) + sum of f cos E_lights(y) + weight L(y, w')   at what w meets, y
  *
  * What is found in both ways, by asking lights and by the path's own rays, counts with the power
- * heuristic of both pdfs, p_a^2 / (p_a^2 + p_b^2) (Veach and Guibas, SIGGRAPH 1995): glowing surfaces
- * always, lamps with extent by way of all that is not matt. Mirrors are not asked about: what a ray
- * finds by way of them counts in full, and point-like lamps not at all. Through thin glass and
- * holes a path goes straight as if it had not met them; shadow rays have passed there too. So they
- * have, straight on, where glass refracts: what a path finds behind it, bent, counts only if it
- * began at the eye.
+ * heuristic of both pdfs, p_a^2 / (p_a^2 + p_b^2) (Veach and Guibas, SIGGRAPH 1995): glowing
+ * surfaces always, lamps with extent by way of all that is not matt. Mirrors are not asked about:
+ * what a ray finds by way of them counts in full, and point-like lamps not at all. Through thin
+ * glass and holes a path goes straight as if it had not met them; shadow rays have passed there
+ * too. So they have, straight on, where glass refracts: what a path finds behind it, bent, counts
+ * only if it began at the eye.
  *
  * A path is worked out alone, whatever packet it travels in: its result depends on its sample
  * number and seed only.
@@ -31,7 +31,8 @@ enum { PATHS = 1024 }; /* most at once; a multiple of every packet width */
 typedef float path_sums[3][PATHS];
 
 /* One bundle of paths, as arrays of `count` numbers. Filled in by the caller: where they begin
- * (from the eye: and which way) and their sample. Given back: what they found, by the order in which they began. */
+ * (from the eye: and which way) and their sample. Given back: what they found, by the order in
+ * which they began. */
 typedef struct path_bundle {
     int count;
     float x[PATHS], y[PATHS], z[PATHS];    /* m, where they begin */

@@ -72,14 +72,14 @@ static vray behind(const scene *s, const vray *ray, const vhit *last)
     return rest;
 }
 
-static vrgb follow(const scene *s, const vray *from, vmask active)
+static vrgb follow(const scene *s, const vray *from, vint spare, vmask active)
 {
     vfloat gone = { 0 };
     vray ray    = *from;
     passage p   = { .share = vspread((vec3){ 1, 1, 1 }) };
     for (int round = 0; round < MOST_ROUNDS && vany(active); round++) {
         vhit hits[MOST_HITS];
-        world_hollow_hits(s->world, &ray, &active, 1, MOST_HITS, hits);
+        world_hollow_hits(s->world, &ray, &active, &spare, 1, MOST_HITS, hits);
         for (int i = 0; i < MOST_HITS; i++) {
             vmask met = active & (hits[i].instance >= 0);
             if (!vany(met))
@@ -109,7 +109,8 @@ int64_t shadow_trace(const scene *s, const vray *rays, const vmask *asked, const
         passes[k]  = vspread((vec3){ 1, 1, 1 });
         vmask open = asked[k] & ~blocked[k];
         if (vany(open))
-            passes[k] = vselect3(open, follow(s, &rays[k], open), passes[k]);
+            passes[k] = vselect3(
+                open, follow(s, &rays[k], s->owners ? spare[k] : vsplat_int(0), open), passes[k]);
     }
     return count;
 }

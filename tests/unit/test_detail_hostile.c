@@ -107,12 +107,12 @@ static bool is_finite(vfloat a) { return vall(vabs(a) <= FLT_MAX); }
 TEST(pictures_of_no_area_have_neither_scale_nor_axes)
 {
     const float cases[][6] = {
-        { 0.3f, 0.7f, 0.3f, 0.7f, 0.3f, 0.7f }, /* a point */
-        { 0, 0, 1, 1, 1, 1 },                   /* two corners in one */
-        { 0.1f, 0.1f, 0.2f, 0.2f, 0.7f, 0.7f }, /* a line, to rounding */
-        { 0, 0.3f, 0.1f, 0.3f, 50, 0.3f },      /* a line of v */
-        { 3e38f, 0, -3e38f, 1, 0, 3e38f },      /* too large a step for a float */
-        { 1e-45f, 0, 0, 1e-45f, 0, 0 },         /* too small a one */
+        { 0.3f, 0.7f, 0.3f, 0.7f, 0.3f, 0.7f },    /* a point */
+        { 0, 0, 1, 1, 1, 1 },                      /* two corners in one */
+        { 0.1f, 0.03f, 0.2f, 0.06f, 0.7f, 0.21f }, /* a line, to rounding */
+        { 0, 0.3f, 0.1f, 0.3f, 50, 0.3f },         /* a line of v */
+        { 3e38f, 0, -3e38f, 1, 0, 3e38f },         /* too large a step for a float */
+        { 1e-45f, 0, 0, 1e-45f, 0, 0 },            /* too small a one */
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         mesh m   = { plain, one_triangle, NULL, 3, 1, { cases[k], cases[k] }, NULL };

@@ -123,6 +123,24 @@ TEST(the_largest_u_draws_the_last_cell_of_weight)
         }
 }
 
+/* u - low and the share of a cell that ends at 1 are halfway between two floats here, and every
+ * other time round to the same. */
+TEST(what_is_left_of_u_is_below_one_though_differences_round_up)
+{
+    int clamped = 0;
+    for (int k = 0; k < 64; k++) {
+        double low             = 0.25 + (2 * k + 1) * 0x1p-25;
+        const double weights[] = { low, 1.0 - low };
+        float cdf[3];
+        distribution_make(cdf, weights, 2);
+        assert_true((double)cdf[1] == low);
+        drawn d = draw(cdf, 0, 2, just_below_one);
+        assert_true(d.rest < 1.0f);
+        clamped += just_below_one - cdf[1] == d.share;
+    }
+    assert_int_equal(clamped, 32);
+}
+
 /* How often each cell is drawn, and that what is left of u is even in it. */
 TEST(draws_follow_the_weights)
 {
@@ -193,6 +211,7 @@ int main(void)
         cmocka_unit_test(where_all_weights_are_zero_all_cells_weigh_the_same),
         cmocka_unit_test(one_cell_is_always_drawn_and_passes_u_on),
         cmocka_unit_test(the_largest_u_draws_the_last_cell_of_weight),
+        cmocka_unit_test(what_is_left_of_u_is_below_one_though_differences_round_up),
         cmocka_unit_test(draws_follow_the_weights),
         cmocka_unit_test(each_lane_draws_from_its_own_row),
     };

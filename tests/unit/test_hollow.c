@@ -101,22 +101,39 @@ TEST(hollow_hits_go_through_what_is_solid)
     vmask all = ALL_LANES;
     vhit h[4];
     row_make(&r, kinds, ROW, TRIANGLE_WATERTIGHT);
-    assert_true(world_hollow_hits(r.w, &r.ray, &all, 1, 4, h));
+    assert_true(world_hollow_hits(r.w, &r.ray, &all, NULL, 1, 4, h));
     for (int k = 0; k < 4; k++) {
         assert_true(vall(h[k].distance == (k < 3 ? (float)(2 * k + 2) : INFINITY)));
         assert_true(vall(h[k].instance == vsplat_int(k < 3 ? 2 * k + 1 : -1)));
     }
-    assert_true(world_hollow_hits(r.w, &r.ray, &all, 1, 3, h)); /* it just fits */
-    assert_false(world_hollow_hits(r.w, &r.ray, &all, 1, 2, h));
+    assert_true(world_hollow_hits(r.w, &r.ray, &all, NULL, 1, 3, h)); /* it just fits */
+    assert_false(world_hollow_hits(r.w, &r.ray, &all, NULL, 1, 2, h));
     assert_true(vall(h[0].distance == 2.0f) && vall(h[1].distance == 4.0f));
-    assert_false(world_hollow_hits(r.w, &r.ray, &all, 1, 1, h));
+    assert_false(world_hollow_hits(r.w, &r.ray, &all, NULL, 1, 1, h));
     assert_true(vall(h[0].distance == 2.0f));
 
     r.ray.reach = vsplat(5.0f);
-    assert_true(world_hollow_hits(r.w, &r.ray, &all, 1, 2, h));
+    assert_true(world_hollow_hits(r.w, &r.ray, &all, NULL, 1, 2, h));
     assert_false(world_all_hits(r.w, &r.ray, &all, 1, 0, h)); /* the others are as they were */
     assert_true(world_all_hits(r.w, &r.ray, &all, 1, 1, h));
     assert_true(vall(h[0].instance == vsplat_int(0)));
+    row_clear(&r);
+}
+
+TEST(hollow_hits_spare_the_body_of_a_lamp)
+{
+    const world_instance own        = { .owner = 2, .hollow = true };
+    const world_instance kinds[ROW] = { own, glass, solid, own };
+    row r;
+    vmask all = ALL_LANES;
+    vhit h[4];
+    row_make(&r, kinds, 4, TRIANGLE_WATERTIGHT);
+    for (int32_t spare = 0; spare <= 2; spare++) {
+        vint body = vsplat_int(spare);
+        assert_true(world_hollow_hits(r.w, &r.ray, &all, &body, 1, 4, h));
+        assert_true(vall(h[0].instance == vsplat_int(spare == 2 ? 1 : 0)));
+        assert_true(vall(h[2].instance == vsplat_int(spare == 2 ? -1 : 3)));
+    }
     row_clear(&r);
 }
 
@@ -127,7 +144,7 @@ TEST(where_nothing_is_hollow_the_list_is_empty)
     vmask all = ALL_LANES;
     vhit h[2];
     row_make(&r, kinds, 3, TRIANGLE_WATERTIGHT);
-    assert_true(world_hollow_hits(r.w, &r.ray, &all, 1, 2, h));
+    assert_true(world_hollow_hits(r.w, &r.ray, &all, NULL, 1, 2, h));
     for (int k = 0; k < 2; k++)
         assert_true(vall(h[k].instance == vsplat_int(-1)) && vall(h[k].distance == INFINITY));
     row_clear(&r);
@@ -238,7 +255,7 @@ TEST(hollow_hits_are_all_hits_of_the_world_of_hollow_ones)
             random_batch(rays, active, spare, seed);
             int most  = seed % 2 ? MOST : 1 + (int)seed / 6;
             bool fits = world_all_hits(f.hollow, rays, active, BATCH, most, want);
-            assert_int_equal(world_hollow_hits(f.all, rays, active, BATCH, most, got), fits);
+            assert_int_equal(world_hollow_hits(f.all, rays, active, NULL, BATCH, most, got), fits);
             full += !fits;
             for (int k = 0; k < BATCH * most; k++) {
                 int32_t number[LANES];
@@ -262,6 +279,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shadow_rays_pass_what_is_hollow_and_nothing_else),
         cmocka_unit_test(hollow_hits_go_through_what_is_solid),
+        cmocka_unit_test(hollow_hits_spare_the_body_of_a_lamp),
         cmocka_unit_test(where_nothing_is_hollow_the_list_is_empty),
         cmocka_unit_test(a_shadow_is_that_of_the_world_without_hollow_ones),
         cmocka_unit_test(hollow_hits_are_all_hits_of_the_world_of_hollow_ones),

@@ -1,0 +1,231 @@
+/* sim/path_light.c -- the light that paths find: by asking lights where they stand, and by the way.
+ */
+#include "core/color.h"
+#include "sim/path_parts.h"
+#include "sim/sensor.h"
+
+enum { ASKED_LAMPS = 16 }; /* that are all asked where a path begins, if one would not do */
+
+/* Adds what each path of packet k found, e, of light number `which` (-1: of none); it came straight
+ * to those that `straight` says. */
+static void add(path_tracer *t, vmask straight, int k, vrgb e, vint which)
+{
+    const scene *s = t->s;
+    float of[3][LANES];
+    vstore(of[0], e.x);
+    vstore(of[1], e.y);
+    vstore(of[2], e.z);
+    for (int i = 0; i < LANES && k * LANES + i < t->alive; i++) {
+        int id = t->id[k * LANES + i], l = lane(which, i);
+        if (l < 0)
+            continue;
+        bool is_straight = vbits(straight) >> i & 1;
+        path_sums *sums  = is_straight ? &t->b->direct : &t->b->indirect;
+        bool lamp        = l < s->light_count;
+        float dimming    = lamp ? s->light_info[l].dimming : s->glow_dimming;
+        int group        = lamp ? s->light_info[l].group : s->glow_group;
+        for (int c = 0; c < 3; c++) {
+            (*sums)[c][id] += dimming * of[c][i];
+            if (!t->b->layers)
+                continue;
+            t->b->layers[group][c][id] += of[c][i];
+            if (is_straight)
+                t->b->layers[s->group_count + group][c][id] += of[c][i];
+        }
+    }
+}
+
+static vfloat first_of(const path_tracer *t, int k)
+{
+    return vgather(t->first, vload_int(t->id + k * LANES));
+}
+
+/* p_a^2 / (p_a^2 + p_b^2), and 1 where there is no other way, b = 0, even to a direction that is as
+ * good as never drawn. */
+static vfloat power_heuristic(vfloat a, vfloat b)
+{
+    vfloat ratio = b / a;
+    return vselect(b > 0.0f, 1.0f / (1.0f + ratio * ratio), vsplat(1.0f));
+}
+
+/* Light that was asked for where paths begin. */
+static void add_first_lights(path_tracer *t, int k)
+{
+    const direct_pick *l = &t->lights[k];
+    const vvec3 *n       = &t->at[k].normal;
+    vmask glows          = t->active[k] & (l->light >= t->s->light_count);
+    vfloat response      = vsensor_response(t->o->quantity, n, &l->wi);
+    if (vany(glows)) {
+        vfloat pdf = vsensor_pdf(t->o->quantity, n, &l->wi);
+        response   = response * vselect(glows, power_heuristic(l->pdf, pdf), vsplat(1.0f));
+    }
+    add(t, ALL_LANES, k, vkeep3(t->active[k], vscale(l->e, response)), l->light);
+}
+
+/* And later: what of it the surface gives on, and how much it counts where rays find it too. */
+static void add_lights(path_tracer *t, int k)
+{
+    const scene *s       = t->s;
+    const direct_pick *l = &t->lights[k];
+    vmask found          = t->asks[k] & (l->light >= s->light_count);
+    if (s->narrow)
+        found = found | (t->asks[k] & ((t->does[k] & DOES_NARROW) != 0));
+    bool both = vany(found);
+    vfloat pdf;
+    vrgb f = materials_reflect(s->materials, t->at[k].material, &t->shading[k], &l->wi, t->asks[k],
+                               both ? &pdf : NULL);
+    vrgb all = vscale(vmul(load3(t, WORTH, k), vmul(f, l->e)), first_of(t, k));
+    if (s->smooth || s->textured)
+        all = vkeep3(on_one_side(&t->shading[k], &l->wi), all);
+    if (both)
+        all = vscale(all, vselect(found, power_heuristic(l->pdf, pdf), vsplat(1.0f)));
+    add(t, (vmask){ 0 }, k, vkeep3(t->asks[k], all), l->light);
+}
+
+/* One that is drawn by its luminance would do, but for colour and for groups: a mixture's luminance
+ * can be sure while its colour, or a group's share, is not. */
+static bool asks_all_lamps(const path_tracer *t)
+{
+    const scene *s = t->s;
+    return s->emitter_count == 0 && s->light_count <= ASKED_LAMPS &&
+           (s->lights_differ || t->b->layers);
+}
+
+/* Next-event estimation where the paths stand. */
+void path_ask_lights(path_tracer *t, bool beginning)
+{
+    const scene *s = t->s;
+    bool lamps     = (!beginning || t->o->lamps) && s->light_count > 0;
+    bool all       = beginning && lamps && asks_all_lamps(t);
+    if (!lamps && s->emitter_count == 0)
+        return;
+    for (int first = 0; first < packets_of(t); first += DIRECT_PACKETS) {
+        int n          = packets_of(t) - first;
+        direct_batch b = { .at         = t->at + first,
+                           .active     = t->asks + first,
+                           .u          = t->light_sample + first,
+                           .packets    = n < DIRECT_PACKETS ? n : DIRECT_PACKETS,
+                           .glow_alone = !lamps,
+                           .all_around = beginning && quantity_is_round(t->o->quantity),
+                           .around     = !beginning && s->narrow ? t->around + first : NULL };
+        for (int l = 0; l < (all ? s->light_count : 1); l++) {
+            if (all)
+                direct_lamp(s, t->direct, l, &b, t->lights + first);
+            else
+                direct_one(s, t->direct, &b, t->lights + first);
+            for (int k = first; k < first + b.packets; k++)
+                beginning ? add_first_lights(t, k) : add_lights(t, k);
+        }
+    }
+}
+
+/* Where the paths of packet k were last, as who asks lights there knows it. */
+static vsurface place_before(const path_tracer *t, int k)
+{
+    return (vsurface){ .position = load3(t, LEFT, k), .normal = load3(t, SIDE, k) };
+}
+
+/* The emitters that what the paths of packet k met is, -1 for none. */
+static vint emitters_met(const path_tracer *t, int k, vmask active)
+{
+    const scene *s = t->s;
+    int32_t of[LANES];
+    for (int i = 0; i < LANES; i++) {
+        of[i] = -1;
+        if (!(vbits(active) >> i & 1) || !s->first_emitter)
+            continue;
+        int64_t first = s->first_emitter[t->instance[k * LANES + i]];
+        if (first >= 0)
+            of[i] = s->emitter_of[first + t->triangle[k * LANES + i]];
+    }
+    return vload_int(of);
+}
+
+/* The density with which lights were asked for what packet k has met, at those that still are at
+ * their beginning and at the others. */
+static vfloat glow_pdf(const path_tracer *t, int k, vmask bright)
+{
+    const scene *s  = t->s;
+    vsurface before = place_before(t, k);
+    vvec3 wi        = load3(t, WAY, k);
+    vint emitter    = emitters_met(t, k, bright);
+    vmask later     = bright & state_has(t, k, SCATTERED);
+    vmask first     = bright & ~later;
+    vmask round     = quantity_is_round(t->o->quantity) ? first : (vmask){ 0 };
+    bool no_lamps   = s->light_count == 0;
+    vfloat pdf      = { 0 };
+    if (vany(first))
+        pdf = direct_glow_pdf(s, &before, &wi, emitter, no_lamps || !t->o->lamps, round, first);
+    if (vany(later))
+        pdf = pdf + direct_glow_pdf(s, &before, &wi, emitter, no_lamps,
+                                    later & state_has(t, k, AROUND), later);
+    return pdf;
+}
+
+/* What shines by itself where the paths have come to. */
+void path_add_glow(path_tracer *t)
+{
+    const scene *s = t->s;
+    if (!s->glows)
+        return;
+    for (int k = 0; k < packets_of(t); k++) {
+        vfloat pdf   = load(t, PDF, k);
+        vmask active = t->active[k] & (pdf >= 0.0f);
+        vrgb glow    = materials_emission(s->materials, t->at[k].material, &t->shading[k], active);
+        vmask bright = active & ((glow.x > 0.0f) | (glow.y > 0.0f) | (glow.z > 0.0f));
+        if (!vany(bright))
+            continue;
+        vmask asked  = bright & (pdf < INFINITY);
+        vfloat other = vany(asked) ? glow_pdf(t, k, asked) : (vfloat){ 0 };
+        vfloat share = power_heuristic(pdf, vkeep(asked, other)) * first_of(t, k);
+        vrgb all     = vscale(vmul(load3(t, WORTH, k), glow), share);
+        add(t, ~state_has(t, k, SCATTERED), k, vkeep3(bright, all), vsplat_int(s->light_count));
+    }
+}
+
+/* Lamp l, where the rays of packet k meet it before what they met. */
+static void add_lamp_met(path_tracer *t, int k, int l, vmask looking)
+{
+    const scene *s    = t->s;
+    const light *lamp = s->lights[l];
+    vlight_hit hit;
+    vvec3 wi   = t->rays[k].direction;
+    vmask seen = lamp->type->hit(lamp, &t->rays[k].origin, &wi, looking, &hit);
+    seen       = seen & (hit.dist < t->hits[k].distance);
+    if (!vany(seen))
+        return;
+    vfloat pdf   = load(t, LAMP_PDF, k);
+    vfloat share = first_of(t, k);
+    vmask asked  = seen & (pdf < INFINITY);
+    if (vany(asked)) {
+        vsurface before = place_before(t, k);
+        vfloat other    = direct_lamp_pdf(s, &before, &wi, l, state_has(t, k, AROUND), asked);
+        share           = share * power_heuristic(pdf, vkeep(asked, other));
+    }
+    vrgb all = vscale(vmul(load3(t, WORTH, k), hit.radiance), share);
+    add(t, ~state_has(t, k, SCATTERED), k, vkeep3(seen, all), vsplat_int(l));
+}
+
+/* Lamps that the rays meet on their way. */
+void path_add_lamps_met(path_tracer *t)
+{
+    for (int k = 0; k < packets_of(t); k++) {
+        vmask looking = t->active[k] & (load(t, LAMP_PDF, k) >= 0.0f);
+        for (int i = 0; vany(looking) && i < t->shown.count; i++)
+            add_lamp_met(t, k, t->shown.lamps[i], looking);
+    }
+}
+
+/* Which paths see something that could give light on. */
+void path_note_met(path_tracer *t)
+{
+    for (int k = 0; k < packets_of(t); k++) {
+        vint which  = t->at[k].material;
+        vfloat back = vrgb_luminance(materials_reflectance(t->s->materials, which, t->active[k]));
+        vmask gives = t->active[k] & (back > 0.0f);
+        if (t->s->narrow || t->s->hollow)
+            gives = t->active[k];
+        for (int bits = vbits(gives); bits; bits &= bits - 1)
+            t->b->met[t->id[k * LANES + __builtin_ctz((unsigned)bits)]] = 1.0f;
+    }
+}

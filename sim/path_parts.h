@@ -1,0 +1,118 @@
+/* sim/path_parts.h -- what the files of path.h share: path.c moves the paths, path_light.c adds up
+ * the light that they find.
+ */
+#ifndef SIM_PATH_PARTS_H
+#define SIM_PATH_PARTS_H
+
+#include "sim/direct.h"
+#include "sim/path.h"
+#include "sim/seen_lamps.h"
+
+enum { PACKETS = PATHS / LANES };
+
+/* What a living path carries; vectors are three fields. Those that a scene does not need come last
+ * and are left out. */
+enum {
+    PLACE        = 0,            /* m: where its ray begins */
+    WAY          = PLACE + 3,    /* unit: the ray's direction */
+    WORTH        = WAY + 3,      /* by channel, 1 at the beginning */
+    PLAIN_FIELDS = WORTH + 3,    /* the next where rays find light: */
+    LEFT         = PLAIN_FIELDS, /* m: where the path was last, straight passages apart */
+    SIDE         = LEFT + 3,     /* the normal there */
+    PDF = SIDE + 3, /* 1/sr, with which it left in its direction: what it then finds that glows
+                       has been asked for too. INFINITY: it has not; ALREADY: by that alone */
+    LAMP_PDF,       /* the same, of lamps */
+    WIDTH,          /* m, of the beam; the next where there are textures */
+    SPREAD,         /* rad, of the beam */
+    FIELDS
+};
+#define ALREADY (-1.0f)
+
+/* Of a living path, bits. */
+enum {
+    SCATTERED = 1, /* it has left its beginning other than straight on */
+    AROUND    = 2, /* where it was last, light from below the horizon counts */
+};
+
+struct path_tracer {
+    const scene *s;
+    const path_options *o;
+    direct_scratch *direct;
+    seen_lamps shown; /* that rays may find */
+    int64_t ray_count;
+    path_bundle *b;
+    int alive, fields;  /* of those below that are carried */
+    float first[PATHS]; /* sr: response / pdf of each path's first direction; from the eye 1 */
+
+    /* Of each living path: whose it is, bits, what it carries */
+    int32_t id[PATHS], state[PATHS];
+    float carried[FIELDS][PATHS];
+
+    /* And what it has met */
+    int32_t instance[PATHS], triangle[PATHS];
+    float distance[PATHS], u[PATHS], v[PATHS];
+
+    /* Of one step, by packet: where the paths stand */
+    vsurface at[PACKETS];
+    vshading shading[PACKETS];
+    vmask active[PACKETS], asks[PACKETS], around[PACKETS];
+    vint does[PACKETS];
+    vsample4 sample[PACKETS], light_sample[PACKETS];
+    direct_pick lights[PACKETS];
+    vray rays[PACKETS];
+    vhit hits[PACKETS];
+};
+
+static inline int packets_of(const path_tracer *t) { return (t->alive + LANES - 1) / LANES; }
+
+static inline vmask living(const path_tracer *t, int k)
+{
+    return (vlane_index() + k * LANES) < t->alive;
+}
+
+static inline vfloat load(const path_tracer *t, int field, int k)
+{
+    return vload(t->carried[field] + k * LANES);
+}
+
+static inline void store(path_tracer *t, int field, int k, vfloat v)
+{
+    vstore(t->carried[field] + k * LANES, v);
+}
+
+static inline vvec3 load3(const path_tracer *t, int field, int k)
+{
+    return (vvec3){ load(t, field, k), load(t, field + 1, k), load(t, field + 2, k) };
+}
+
+static inline void store3(path_tracer *t, int field, int k, vvec3 v)
+{
+    store(t, field, k, v.x);
+    store(t, field + 1, k, v.y);
+    store(t, field + 2, k, v.z);
+}
+
+static inline vmask state_has(const path_tracer *t, int k, int bit)
+{
+    return (vload_int(t->state + k * LANES) & bit) != 0;
+}
+
+/* Where surfaces have normals other than their own: not what would pass through an opaque one. */
+static inline vmask on_one_side(const vshading *s, const vvec3 *wi)
+{
+    return (vdot(*wi, s->n) > 0.0f) == (vdot(*wi, s->flat) > 0.0f);
+}
+
+/* Next-event estimation where the paths stand. */
+void path_ask_lights(path_tracer *t, bool beginning);
+
+/* Lamps that the rays meet on their way. */
+void path_add_lamps_met(path_tracer *t);
+
+/* What shines by itself where the paths have come to. */
+void path_add_glow(path_tracer *t);
+
+/* Which paths see something that could give light on. */
+void path_note_met(path_tracer *t);
+
+#endif

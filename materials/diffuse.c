@@ -11,11 +11,14 @@ static vmask diffuse_scatter(const material *self, const vshading *s, vfloat u, 
                              vfloat pick, vmask active, vscatter *out)
 {
     (void)pick;
-    out->wi       = vkeep3(active, vwarp_cosine_about(s->n, u, v));
-    out->weight   = vkeep3(active, look_color(self, s));
-    out->pdf      = vkeep(active, vwarp_cosine_pdf(vdot(out->wi, s->n)));
+    vvec3 wi      = vwarp_cosine_about(s->n, u, v);
+    vfloat cosine = vdot(wi, s->n);
+    vmask goes    = active & (cosine > 0.0f); /* at the rim of the square it may not be */
+    out->wi       = vkeep3(goes, wi);
+    out->weight   = vkeep3(goes, look_color(self, s));
+    out->pdf      = vkeep(goes, vwarp_cosine_pdf(cosine));
     out->straight = out->bent = (vmask){ 0 };
-    return active;
+    return goes;
 }
 
 static vrgb diffuse_reflect(const material *self, const vshading *s, const vvec3 *wi, vmask active,

@@ -114,13 +114,14 @@ typedef struct gltf {
     gltf_node *nodes; /* those of the scene */
     gltf_camera *cameras;
     gltf_light *lights;
-    uint64_t texture_count;  /* textures of materials that were taken as their mean */
+    uint32_t texture_count;  /* different ones that materials have */
     uint64_t flat_triangles; /* left out, without area */
 } gltf;
 
 /* Reads the .gltf or .glb at path (its first bytes decide), and the files in its folder that it
- * names, into a. NULL, with *err naming the file and the JSON pointer, or the offset, of what is
- * wrong. What is left out or read as something simpler is noticed, once a kind.
+ * names, into a; pictures only of materials that the scene shows. NULL, with *err naming the file
+ * and the JSON pointer, or the offset, of what is wrong. What is left out or read as something
+ * simpler is noticed, once a kind.
  *
  * Meshes and materials have the file's numbers; a mesh that the scene does not show, or that has
  * no triangles, has no placement. Places are finite, with a determinant that is finite and, but

@@ -75,7 +75,7 @@ MAKEFLAGS += --no-builtin-rules --no-print-directory
 Q         := $(if $V,,@)
 .DELETE_ON_ERROR:
 .SECONDARY:
-.PHONY: all check check-long tests demo bench bench-lights bench-hall bench-programs bench-deps deps fuzz fuzzers install layers \
+.PHONY: all check check-long tests demo bench bench-lights bench-texture bench-hall bench-programs bench-deps deps fuzz fuzzers install layers \
         format format-check clean help FORCE
 
 ## all: the library and the program (what plain `make` does)
@@ -121,6 +121,13 @@ $(PLAIN_LIGHTS): tests/bench/plain_lights.c $B/flags
 	@mkdir -p $(@D); echo "CC   $< $(X87)"
 	$Q$(CC) $(CPPFLAGS) $(CFLAGS) -fno-tree-vectorize -fno-tree-slp-vectorize $(X87) -c $< -o $@
 
+# Textures as plain scalar C
+PLAIN_TEXTURE := $B/tests/bench/plain_texture.o
+$B/tests/bench/bench_texture: $(PLAIN_TEXTURE)
+$(PLAIN_TEXTURE): tests/bench/plain_texture.c $B/flags
+	@mkdir -p $(@D); echo "CC   $<"
+	$Q$(CC) $(CPPFLAGS) $(CFLAGS) -fno-tree-vectorize -fno-tree-slp-vectorize -c $< -o $@
+
 $B/%.c.o: %.c $B/flags
 	@mkdir -p $(@D); echo "CC   $<"
 	$Q$(CC) $(CPPFLAGS) $(CFLAGS) -c $< -o $@
@@ -136,7 +143,7 @@ $B/flags $B/links: FORCE
 	@mkdir -p $(@D); echo '$(subst ','\'',$(TELL))' | cmp -s - $@ || echo '$(subst ','\'',$(TELL))' > $@
 
 -include $(patsubst %,$B/%.d,$(SRC:=) $(AIDS) sim/main.c) $(addsuffix .c.d,$(TESTS) $(LONG) $(BENCH) $(FUZZERS))
--include $(PLUG:.so=.d) $(OFFICE:.o=.d) $(PLAIN_LIGHTS:.o=.d)
+-include $(PLUG:.so=.d) $(OFFICE:.o=.d) $(PLAIN_LIGHTS:.o=.d) $(PLAIN_TEXTURE:.o=.d)
 
 # What is missing is installed for check and demo, which set a machine up; else it is named.
 build/pkg.mk: Makefile
@@ -184,6 +191,13 @@ bench-lights:
 	$Q$(MAKE) build/$(KIND)-1/tests/bench/bench_lights WIDTH=1
 	@{ echo "# $$(git describe --always --dirty 2>/dev/null) $(CC) $(OPT)"; \
 	  build/$(KIND)-4/tests/bench/bench_lights build/$(KIND)-1/tests/bench/bench_lights; } | tee -a build/bench.log
+
+## bench-texture: nanoseconds a trilinear look-up, beside plain C; appended to build/bench.log
+bench-texture:
+	$Q$(MAKE) build/$(KIND)-4/tests/bench/bench_texture WIDTH=4
+	$Q$(MAKE) build/$(KIND)-1/tests/bench/bench_texture WIDTH=1
+	@{ echo "# $$(git describe --always --dirty 2>/dev/null) $(CC) $(OPT)"; \
+	  build/$(KIND)-4/tests/bench/bench_texture build/$(KIND)-1/tests/bench/bench_texture; } | tee -a build/bench.log
 
 ## bench-hall: seconds that 1,000 lamps in a hall cost, beside 10; appended to build/bench.log
 bench-hall:

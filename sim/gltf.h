@@ -34,9 +34,14 @@ typedef struct gltf_material {
     float attenuation_distance; /* m, 1e-9 at least; INFINITY */
     vec3 attenuation_color;     /* (0, 1]; 1 */
     bool unlit;                 /* KHR_materials_unlit */
-    const struct material_textures *textures; /* NULL: none, and alphaMode is not MASK */
+    const struct material_textures *textures; /* NULL: none that changes anything and alphaMode is
+                                                 not MASK, or the scene shows no such triangle */
 } gltf_material;
 
+/* Texture coordinates of a set are there if some texture of the mesh's materials goes by them and
+ * some primitive has them; where one has not, they are 0. Normals are there if they say more than
+ * the triangles: of a triangle whose corners are within 0.1 degree of its own all three are 0, and
+ * so they are where one is not finite, has no length or points to the back. */
 typedef struct gltf_mesh {
     const char *name;
     mesh triangles; /* of all its primitives; material: an index of gltf.materials */

@@ -91,17 +91,17 @@ static vfloat several_of(vfloat f0, vfloat f90, vfloat loss)
 
 static vgloss surface_of(const gloss *m, const vlook *look, vmask active)
 {
-    vgloss g         = { .ggx = vggx_of(look->roughness, active) };
-    vrgb dielectric  = at_most_one(vscale(look->specular, vsplat(m->dielectric)));
-    g.f0             = mix(vscale(dielectric, look->specular_weight), look->color, look->metallic);
-    g.f90            = vlerp(look->specular_weight, vsplat(1.0f), look->metallic);
-    vfloat loss      = g.ggx.mean.loss;
-    g.several        = (vrgb){ several_of(g.f0.x, g.f90, loss), several_of(g.f0.y, g.f90, loss),
-                               several_of(g.f0.z, g.f90, loss) };
-    vrgb base        = vscale(look->color, 1.0f - look->metallic);
-    g.clear          = vscale(base, look->transmission);
-    g.matt           = vscale(base, 1.0f - look->transmission);
-    g.enters         = entering(&g, g.ggx.mean);
+    vgloss g        = { .ggx = vggx_of(look->roughness, active) };
+    vrgb dielectric = at_most_one(vscale(look->specular, vsplat(m->dielectric)));
+    g.f0            = mix(vscale(dielectric, look->specular_weight), look->color, look->metallic);
+    g.f90           = vlerp(look->specular_weight, vsplat(1.0f), look->metallic);
+    vfloat loss     = g.ggx.mean.loss;
+    g.several       = (vrgb){ several_of(g.f0.x, g.f90, loss), several_of(g.f0.y, g.f90, loss),
+                              several_of(g.f0.z, g.f90, loss) };
+    vrgb base       = vscale(look->color, 1.0f - look->metallic);
+    g.clear         = vscale(base, look->transmission);
+    g.matt          = vscale(base, 1.0f - look->transmission);
+    g.enters        = entering(&g, g.ggx.mean);
     return g;
 }
 
@@ -113,7 +113,8 @@ static vgloss_side side_of(const vgloss *g, vfloat cosine, vmask active)
     return s;
 }
 
-/* ---- the parts that directions are drawn of --------------------------------------------------- */
+/* ---- the parts that directions are drawn of ---------------------------------------------------
+ */
 
 /* Off one facet and off several, back and through, and out of the base: the chance of each. */
 typedef struct vgloss_parts {
@@ -132,8 +133,8 @@ static vgloss_parts parts_of(const vgloss *g, const vgloss_side *o)
     p.several_through = vrgb_luminance(vmul(g->clear, complement(g->several))) * o->share.loss;
     p.matt            = vrgb_luminance(vmul(g->matt, o->enters));
 
-    vfloat sum = p.once + p.once_through + p.several + p.several_through + p.matt;
-    p.any      = sum > 1e-20f; /* below it there is nothing to see */
+    vfloat sum        = p.once + p.once_through + p.several + p.several_through + p.matt;
+    p.any             = sum > 1e-20f; /* below it there is nothing to see */
     p.once            = vkeep(p.any, p.once / sum);
     p.once_through    = vkeep(p.any, p.once_through / sum);
     p.several         = vkeep(p.any, p.several / sum);
@@ -172,7 +173,8 @@ static vmask draw(const vgloss *g, const vgloss_parts *p, const vshading *s, vfl
     return p->any & (wi.z > 0.0f) & ((below & through) | ~(below | through));
 }
 
-/* ---- f and pdf -------------------------------------------------------------------------------- */
+/* ---- f and pdf --------------------------------------------------------------------------------
+ */
 
 /* The square of the part of o + i along the surface, o and i unit. Where both graze it, that is far
  * shorter than they are: the difference of their lengths along it, a - b, is then that of the
@@ -249,7 +251,8 @@ static vrgb evaluate(const vgloss *g, const vgloss_side *o, const vshading *s, c
     return vkeep3(seen, vscale(f, i.cosine));
 }
 
-/* ---- the material ----------------------------------------------------------------------------- */
+/* ---- the material -----------------------------------------------------------------------------
+ */
 
 static vfloat seen_cosine(const vshading *s) { return vmax(vdot(s->wo, s->n), vsplat(0.0f)); }
 
@@ -290,12 +293,12 @@ static vrgb gloss_albedo(const material *self, const vshading *s, vmask active)
     return vkeep3(active, back);
 }
 
-static const material_type gloss_type = { .name    = "gloss",
-                                          .scatter = gloss_scatter,
-                                          .reflect = gloss_reflect,
-                                          .albedo  = gloss_albedo };
+static const material_type gloss_type = {
+    .name = "gloss", .scatter = gloss_scatter, .reflect = gloss_reflect, .albedo = gloss_albedo
+};
 
-/* ---- making one ------------------------------------------------------------------------------- */
+/* ---- making one -------------------------------------------------------------------------------
+ */
 
 static bool number_valid(const char *material_name, const char *what, float value, lux_error *err)
 {
@@ -338,8 +341,7 @@ static vlook mean_look(const material *m)
     const material_textures *t          = m->textures ? m->textures : &none;
     const texture_slot *specular        = &t->specular_color;
     vec3 color                          = v3_mul(m->look.color, textures_mean_color(m->textures));
-    vec3 tint                           = { mean_of(specular, 0), mean_of(specular, 1),
-                                            mean_of(specular, 2) };
+    vec3 tint = { mean_of(specular, 0), mean_of(specular, 1), mean_of(specular, 2) };
     return (vlook){ .color        = vspread(color),
                     .specular     = vspread(v3_mul(m->look.specular, tint)),
                     .metallic     = vsplat(m->look.metallic * mean_of(&t->surface, 2)),

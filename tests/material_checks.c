@@ -120,7 +120,7 @@ static void polar_of(const polar *p, dir d, double *x, double *phi)
 /* ---- quadrature of reflect() on one side of the surface ---------------------------------------
  */
 
-enum { ROWS = 16, COLUMNS = 32, FINE = 16, CELLS = ROWS * COLUMNS };
+enum { ROWS = 16, COLUMNS = 32, FINE = 24, CELLS = ROWS * COLUMNS };
 
 /* The energy (if not NULL), and the integral of the pdf over each of ROWS * COLUMNS cells in polar
  * coordinates: FINE * FINE points in each. */

@@ -66,6 +66,7 @@ LONG  := $(patsubst %.c,$B/%,$(wildcard tests/*/long_*.c))
 BENCH := $(patsubst %.c,$B/%,$(wildcard tests/bench/bench_*.c))
 FUZZERS := $(patsubst %.c,$B/%,$(wildcard tests/fuzz/fuzz_*.c))
 OFFICE := $(patsubst %.c,$B/%.c.o,$(wildcard data/office/*.c))
+LAYER  := $(patsubst %.c,$B/%.c.o,$(wildcard data/materials/bsdf_*.c))
 PROG  := $(patsubst sim/main.c,$B/lux4,$(wildcard sim/main.c))
 PLUG  := $(patsubst $(SHIM),$B/liblux4_oiio.so,$(wildcard $(SHIM)))
 TEXT  := $(wildcard $(foreach d,$(LAYERS) tests tests/* data/*,$d/*.[ch] $d/*.cpp))
@@ -106,6 +107,12 @@ $B/make_office: $(OFFICE) $B/links
 	@echo "LD   $@"
 	$Q$(CXX) $(SANS) $(OFFICE) -lm -o $@
 
+# The program that makes glazing.xml and blind.xml, and the test of what it makes
+$B/tests/physics/test_layers: $(LAYER)
+$B/make_bsdf: $(LAYER) $B/data/materials/make_bsdf.c.o $B/links
+	@echo "LD   $@"
+	$Q$(CXX) $(SANS) $(filter %.o,$^) -lm -o $@
+
 build/bench/office-%.glb: $B/make_office
 	@mkdir -p $(@D); $< --bench $* $@
 
@@ -143,7 +150,7 @@ $B/flags $B/links: FORCE
 	@mkdir -p $(@D); echo '$(subst ','\'',$(TELL))' | cmp -s - $@ || echo '$(subst ','\'',$(TELL))' > $@
 
 -include $(patsubst %,$B/%.d,$(SRC:=) $(AIDS) sim/main.c) $(addsuffix .c.d,$(TESTS) $(LONG) $(BENCH) $(FUZZERS))
--include $(PLUG:.so=.d) $(OFFICE:.o=.d) $(PLAIN_LIGHTS:.o=.d) $(PLAIN_TEXTURE:.o=.d)
+-include $(PLUG:.so=.d) $(OFFICE:.o=.d) $(LAYER:.o=.d) $(PLAIN_LIGHTS:.o=.d) $(PLAIN_TEXTURE:.o=.d)
 
 # What is missing is installed for check and demo, which set a machine up; else it is named.
 build/pkg.mk: Makefile

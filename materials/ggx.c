@@ -57,9 +57,9 @@ vggx_share vggx_shares(const vggx *g, vfloat m, vmask active)
     vint first = cell_of(y - 1.0f, GGX_COLUMNS - 3, &part);
     cubic_weights(y - 1.0f - vto_float(first), w); /* part, but below 0 in the first cell */
 
-    vint at        = g->row * GGX_COLUMNS + first;
-    vfloat loss    = vlerp(along_row(ggx_loss, at, w), along_row(ggx_loss, at + GGX_COLUMNS, w),
-                           g->below_next);
+    vint at = g->row * GGX_COLUMNS + first;
+    vfloat loss =
+        vlerp(along_row(ggx_loss, at, w), along_row(ggx_loss, at + GGX_COLUMNS, w), g->below_next);
     vfloat schlick = vlerp(along_row(ggx_schlick, at, w),
                            along_row(ggx_schlick, at + GGX_COLUMNS, w), g->below_next);
     vggx_share s;

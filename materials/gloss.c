@@ -64,6 +64,12 @@ static vrgb mix(vrgb a, vrgb b, vfloat t)
     return (vrgb){ vlerp(a.x, b.x, t), vlerp(a.y, b.y, t), vlerp(a.z, b.z, t) };
 }
 
+static vrgb at_most_one(vrgb a)
+{
+    vfloat one = vsplat(1.0f);
+    return (vrgb){ vmin(a.x, one), vmin(a.y, one), vmin(a.z, one) };
+}
+
 /* Off one facet: of what facets reflect between f0 and f90. */
 static vrgb once(vrgb f0, vfloat f90, vggx_share s)
 {
@@ -74,7 +80,7 @@ static vrgb once(vrgb f0, vfloat f90, vggx_share s)
 static vrgb entering(const vgloss *g, vggx_share s)
 {
     vrgb past_one = once(complement(g->f0), 1.0f - g->f90, s);
-    return vadd(past_one, vscale(complement(g->several), s.loss));
+    return at_most_one(vadd(past_one, vscale(complement(g->several), s.loss)));
 }
 
 static vfloat several_of(vfloat f0, vfloat f90, vfloat loss)
@@ -83,25 +89,19 @@ static vfloat several_of(vfloat f0, vfloat f90, vfloat loss)
     return mean * mean * (1.0f - loss) / (1.0f - mean * loss);
 }
 
-static vrgb at_most_one(vrgb a)
-{
-    vfloat one = vsplat(1.0f);
-    return (vrgb){ vmin(a.x, one), vmin(a.y, one), vmin(a.z, one) };
-}
-
 static vgloss surface_of(const gloss *m, const vlook *look, vmask active)
 {
-    vgloss g         = { .ggx = vggx_of(look->roughness, active) };
-    vrgb dielectric  = at_most_one(vscale(look->specular, vsplat(m->dielectric)));
-    g.f0             = mix(vscale(dielectric, look->specular_weight), look->color, look->metallic);
-    g.f90            = vlerp(look->specular_weight, vsplat(1.0f), look->metallic);
-    vfloat loss      = g.ggx.mean.loss;
-    g.several        = (vrgb){ several_of(g.f0.x, g.f90, loss), several_of(g.f0.y, g.f90, loss),
-                               several_of(g.f0.z, g.f90, loss) };
-    vrgb base        = vscale(look->color, 1.0f - look->metallic);
-    g.clear          = vscale(base, look->transmission);
-    g.matt           = vscale(base, 1.0f - look->transmission);
-    g.enters         = entering(&g, g.ggx.mean);
+    vgloss g        = { .ggx = vggx_of(look->roughness, active) };
+    vrgb dielectric = at_most_one(vscale(look->specular, vsplat(m->dielectric)));
+    g.f0            = mix(vscale(dielectric, look->specular_weight), look->color, look->metallic);
+    g.f90           = vlerp(look->specular_weight, vsplat(1.0f), look->metallic);
+    vfloat loss     = g.ggx.mean.loss;
+    g.several       = (vrgb){ several_of(g.f0.x, g.f90, loss), several_of(g.f0.y, g.f90, loss),
+                              several_of(g.f0.z, g.f90, loss) };
+    vrgb base       = vscale(look->color, 1.0f - look->metallic);
+    g.clear         = vscale(base, look->transmission);
+    g.matt          = vscale(base, 1.0f - look->transmission);
+    g.enters        = entering(&g, g.ggx.mean);
     return g;
 }
 
@@ -113,7 +113,8 @@ static vgloss_side side_of(const vgloss *g, vfloat cosine, vmask active)
     return s;
 }
 
-/* ---- the parts that directions are drawn of --------------------------------------------------- */
+/* ---- the parts that directions are drawn of ---------------------------------------------------
+ */
 
 /* Off one facet and off several, back and through, and out of the base: the chance of each. */
 typedef struct vgloss_parts {
@@ -132,8 +133,8 @@ static vgloss_parts parts_of(const vgloss *g, const vgloss_side *o)
     p.several_through = vrgb_luminance(vmul(g->clear, complement(g->several))) * o->share.loss;
     p.matt            = vrgb_luminance(vmul(g->matt, o->enters));
 
-    vfloat sum = p.once + p.once_through + p.several + p.several_through + p.matt;
-    p.any      = sum > 1e-20f; /* below it there is nothing to see */
+    vfloat sum        = p.once + p.once_through + p.several + p.several_through + p.matt;
+    p.any             = sum > 1e-20f; /* below it there is nothing to see */
     p.once            = vkeep(p.any, p.once / sum);
     p.once_through    = vkeep(p.any, p.once_through / sum);
     p.several         = vkeep(p.any, p.several / sum);
@@ -142,9 +143,11 @@ static vgloss_parts parts_of(const vgloss *g, const vgloss_side *o)
     return p;
 }
 
-static vvec3 draw(const vgloss *g, const vgloss_parts *p, const vshading *s, vfloat cosine,
-                  vfloat u, vfloat v, vfloat pick)
+/* The lanes that are not lost below the horizon, and their wi. */
+static vmask draw(const vgloss *g, const vgloss_parts *p, const vshading *s, vfloat cosine,
+                  const vfloat uv[2], vfloat pick, vvec3 *out)
 {
+    vfloat u = uv[0], v = uv[1];
     vvec3 x, y;
     vframe(s->n, &x, &y);
     vvec3 wo = { vdot(s->wo, x), vdot(s->wo, y), cosine };
@@ -164,11 +167,27 @@ static vvec3 draw(const vgloss *g, const vgloss_parts *p, const vshading *s, vfl
     vfloat across = vsqrt(1.0f - m * m), phi = 6.28318531f * v;
     vvec3 lossy = { across * vcos(phi), across * vsin(phi), m };
     vvec3 wi    = vselect3(facet, off, vselect3(matt, even, lossy));
-    wi.z        = vselect(through, -wi.z, wi.z);
-    return vadd(vscale(s->n, wi.z), vadd(vscale(x, wi.x), vscale(y, wi.y)));
+    vfloat z    = vselect(through, -wi.z, wi.z);
+    *out        = vadd(vscale(s->n, z), vadd(vscale(x, wi.x), vscale(y, wi.y)));
+    vmask below = vdot(*out, s->n) < 0.0f;
+    return p->any & (wi.z > 0.0f) & ((below & through) | ~(below | through));
 }
 
-/* ---- f and pdf -------------------------------------------------------------------------------- */
+/* ---- f and pdf --------------------------------------------------------------------------------
+ */
+
+/* The square of the part of o + i along the surface, o and i unit. Where both graze it, that is far
+ * shorter than they are: the difference of their lengths along it, a - b, is then that of the
+ * squared cosines over a + b, which rounding does not touch. */
+static vfloat along_surface2(vvec3 n, vvec3 o, vvec3 i, vfloat m_o, vfloat m_i)
+{
+    vvec3 o_side = vcross(n, o), i_side = vcross(n, i), sum = vadd(o_side, i_side);
+    vfloat a = vlength(o_side), b = vlength(i_side);
+    vmask graze   = 2.0f * (m_o + m_i) < a + b;
+    vfloat longer = (m_i - m_o) * (m_i + m_o) / (a + b);
+    vvec3 turn    = vadd(vscale(o_side, 1.0f / a), vscale(i_side, 1.0f / b));
+    return vselect(graze, longer * longer + a * b * vdot(turn, turn), vdot(sum, sum));
+}
 
 /* The facet between o and i, or i mirrored to o's side: D, and F. The part of h along the surface
  * is that of o + i either way; that across it is the sum of the cosines. */
@@ -177,16 +196,16 @@ typedef struct vgloss_facet {
     vrgb fresnel;
 } vgloss_facet;
 
-static vgloss_facet facet_between(const vgloss *g, const vshading *s, const vvec3 *wi,
-                                  vfloat cosines)
+static vgloss_facet facet_between(const vgloss *g, const vshading *s, const vvec3 *wi, vfloat m_o,
+                                  vfloat m_i)
 {
-    vvec3 along   = vcross(s->n, vadd(s->wo, *wi));
-    vfloat along2 = vdot(along, along);
-    vfloat h2     = vmax(along2 + cosines * cosines, vsplat(1e-30f));
+    vfloat along2 = along_surface2(s->n, s->wo, *wi, m_o, m_i);
+    vfloat up2    = (m_o + m_i) * (m_o + m_i);
+    vfloat h2     = vmax(along2 + up2, vsplat(1e-30f));
     vfloat steep  = vmax(1.0f - 0.5f * vsqrt(h2), vsplat(0.0f)); /* |o + i| = 2 o.h */
     vfloat steep2 = steep * steep;
     vfloat weight = steep2 * steep2 * steep;
-    return (vgloss_facet){ vggx_density(&g->ggx, along2 / h2, cosines * cosines / h2),
+    return (vgloss_facet){ vggx_density(&g->ggx, along2 / h2, up2 / h2),
                            mix(g->f0, grey(g->f90), weight) };
 }
 
@@ -225,14 +244,15 @@ static vrgb evaluate(const vgloss *g, const vgloss_side *o, const vshading *s, c
     vmask seen     = active & (cosine != 0.0f);
     vgloss_parts p = parts_of(g, o);
     vgloss_side i  = side_of(g, cosine, seen);
-    vgloss_facet h = facet_between(g, s, wi, o->cosine + i.cosine);
+    vgloss_facet h = facet_between(g, s, wi, o->cosine, i.cosine);
     vrgb f         = density_of(g, &p, o, &i, h, through, pdf);
     if (pdf)
         *pdf = vkeep(seen, *pdf);
     return vkeep3(seen, vscale(f, i.cosine));
 }
 
-/* ---- the material ----------------------------------------------------------------------------- */
+/* ---- the material -----------------------------------------------------------------------------
+ */
 
 static vfloat seen_cosine(const vshading *s) { return vmax(vdot(s->wo, s->n), vsplat(0.0f)); }
 
@@ -243,9 +263,10 @@ static vmask gloss_scatter(const material *self, const vshading *s, vfloat u, vf
     vgloss g       = surface_of((const gloss *)self, &look, active);
     vgloss_side o  = side_of(&g, seen_cosine(s), active);
     vgloss_parts p = parts_of(&g, &o);
-    vvec3 wi       = draw(&g, &p, s, o.cosine, u, v, pick);
+    vvec3 wi;
+    vmask drawn = draw(&g, &p, s, o.cosine, (vfloat[]){ u, v }, pick, &wi);
     vfloat pdf;
-    vrgb f        = evaluate(&g, &o, s, &wi, active & p.any, &pdf);
+    vrgb f        = evaluate(&g, &o, s, &wi, active & drawn, &pdf);
     vmask goes    = pdf > 0.0f;
     out->wi       = vkeep3(goes, wi);
     out->weight   = vkeep3(goes, vscale(f, 1.0f / pdf));
@@ -272,12 +293,12 @@ static vrgb gloss_albedo(const material *self, const vshading *s, vmask active)
     return vkeep3(active, back);
 }
 
-static const material_type gloss_type = { .name    = "gloss",
-                                          .scatter = gloss_scatter,
-                                          .reflect = gloss_reflect,
-                                          .albedo  = gloss_albedo };
+static const material_type gloss_type = {
+    .name = "gloss", .scatter = gloss_scatter, .reflect = gloss_reflect, .albedo = gloss_albedo
+};
 
-/* ---- making one ------------------------------------------------------------------------------- */
+/* ---- making one -------------------------------------------------------------------------------
+ */
 
 static bool number_valid(const char *material_name, const char *what, float value, lux_error *err)
 {
@@ -320,8 +341,7 @@ static vlook mean_look(const material *m)
     const material_textures *t          = m->textures ? m->textures : &none;
     const texture_slot *specular        = &t->specular_color;
     vec3 color                          = v3_mul(m->look.color, textures_mean_color(m->textures));
-    vec3 tint                           = { mean_of(specular, 0), mean_of(specular, 1),
-                                            mean_of(specular, 2) };
+    vec3 tint = { mean_of(specular, 0), mean_of(specular, 1), mean_of(specular, 2) };
     return (vlook){ .color        = vspread(color),
                     .specular     = vspread(v3_mul(m->look.specular, tint)),
                     .metallic     = vsplat(m->look.metallic * mean_of(&t->surface, 2)),

@@ -44,8 +44,8 @@ ggx_twin_share ggx_twin_integral(double alpha, double m, int v_steps, int u_step
             double h = sqrt(hx * hx + hy * hy + up * up), o_h = (hx * across + up * m) / h;
             double m_i = 2.0 * o_h * up / h - m;
             double s_i = s_of(alpha, m_i), kept = m * s_i + m_i * s_o;
-            double lost = m_i > 0.0 ? m * alpha * alpha * (1.0 - m_i * m_i) / ((s_i + m_i) * kept)
-                                    : 1.0;
+            double lost =
+                m_i > 0.0 ? m * alpha * alpha * (1.0 - m_i * m_i) / ((s_i + m_i) * kept) : 1.0;
             sum.loss += weight * lost;
             sum.schlick += weight * (1.0 - lost) * pow(fmax(1.0 - o_h, 0.0), 5.0);
         }
@@ -58,10 +58,7 @@ ggx_twin_share ggx_twin_integral(double alpha, double m, int v_steps, int u_step
 
 static const double least_root = 0.177827941003892280, scale = (double)GGX_COLUMN_SCALE;
 
-double ggx_twin_root(double row)
-{
-    return least_root + (1.0 - least_root) * row / (GGX_ROWS - 1);
-}
+double ggx_twin_root(double row) { return least_root + (1.0 - least_root) * row / (GGX_ROWS - 1); }
 
 double ggx_twin_cosine(double alpha, double column)
 {
@@ -70,28 +67,34 @@ double ggx_twin_cosine(double alpha, double column)
     return fmin(root * root * alpha, 1.0);
 }
 
-static double cubic(const float *row, double y)
+/* Lagrange's weights of the four places from the one before y on; which that is. */
+static int cubic_weights(double y, double w[4])
 {
     int j    = (int)fmin(fmax(floor(y), 1.0), GGX_COLUMNS - 3);
-    double f = y - j, sum = 0.0;
-    for (int k = -1; k <= 2; k++) {
-        double w = 1.0;
-        for (int l = -1; l <= 2; l++)
-            w *= l == k ? 1.0 : (f - l) / (k - l);
-        sum += w * (double)row[j + k];
-    }
-    return sum;
+    double f = y - j;
+    w[0]     = -f * (f - 1.0) * (f - 2.0) / 6.0;
+    w[1]     = (f + 1.0) * (f - 1.0) * (f - 2.0) / 2.0;
+    w[2]     = -(f + 1.0) * f * (f - 2.0) / 2.0;
+    w[3]     = (f + 1.0) * f * (f - 1.0) / 6.0;
+    return j - 1;
+}
+
+static double blend(const float *row, const double w[4])
+{
+    return w[0] * (double)row[0] + w[1] * (double)row[1] + w[2] * (double)row[2] +
+           w[3] * (double)row[3];
 }
 
 /* At places along rows and columns. */
 static ggx_twin_share at(double x, double y)
 {
+    double w[4];
     int i     = (int)fmin(fmax(floor(x), 0.0), GGX_ROWS - 2);
     double f  = x - i;
-    size_t r0 = (size_t)i * GGX_COLUMNS, r1 = r0 + GGX_COLUMNS;
-    return (ggx_twin_share){ (1.0 - f) * cubic(ggx_loss + r0, y) + f * cubic(ggx_loss + r1, y),
-                             (1.0 - f) * cubic(ggx_schlick + r0, y) +
-                                 f * cubic(ggx_schlick + r1, y) };
+    size_t r0 = (size_t)(i * GGX_COLUMNS + cubic_weights(y, w)), r1 = r0 + GGX_COLUMNS;
+    return (ggx_twin_share){ (1.0 - f) * blend(ggx_loss + r0, w) + f * blend(ggx_loss + r1, w),
+                             (1.0 - f) * blend(ggx_schlick + r0, w) +
+                                 f * blend(ggx_schlick + r1, w) };
 }
 
 static double row_of(double alpha)
@@ -109,7 +112,7 @@ ggx_twin_share ggx_twin_lookup(double alpha, double m)
 ggx_twin_share ggx_twin_mean(double alpha)
 {
     enum { CUTS = 16, STEPS = (GGX_COLUMNS - 1) * CUTS };
-    const double dy    = 1.0 / CUTS, most = log(1.0 + scale / sqrt(alpha));
+    const double dy = 1.0 / CUTS, most = log(1.0 + scale / sqrt(alpha));
     double x           = row_of(alpha);
     ggx_twin_share sum = { 0 };
     for (int k = 0; k <= STEPS; k++) {
@@ -151,7 +154,7 @@ typedef struct channel {
 static channel channel_of(const gloss_desc *d, int c, double mean_loss)
 {
     static const double weights[3] = { 0.2126, 0.7152, 0.0722 };
-    const float base[] = { d->base_color.x, d->base_color.y, d->base_color.z };
+    const float base[]             = { d->base_color.x, d->base_color.y, d->base_color.z };
     const float tint[] = { d->specular_color.x, d->specular_color.y, d->specular_color.z };
     double metallic = (double)d->metallic, b = (double)base[c], t = (double)d->transmission;
     double ior = (double)d->ior, root = ior == 0.0 ? 1.0 : (ior - 1.0) / (ior + 1.0);
@@ -204,12 +207,12 @@ gloss_twin gloss_twin_of(const gloss_desc *d, const double n[3], const double wo
     ggx_twin_share mean = mean_between(alpha);
     double lost         = o.loss * i.loss / (pi * mean.loss);
 
-    gloss_twin r = { 0 };
+    gloss_twin r   = { 0 };
     double part[5] = { 0 }; /* once, through; several, through; matt */
     for (int c = 0; c < 3; c++) {
-        channel k    = channel_of(d, c, mean.loss);
-        double f     = k.f0 + (k.f90 - k.f0) * pow(1.0 - h.o_h, 5.0);
-        double in    = enters(&k, o), in_mean = enters(&k, mean);
+        channel k = channel_of(d, c, mean.loss);
+        double f  = k.f0 + (k.f90 - k.f0) * pow(1.0 - h.o_h, 5.0);
+        double in = enters(&k, o), in_mean = enters(&k, mean);
         double base  = in_mean > 0.0 ? k.matt * in * enters(&k, i) / (pi * in_mean) : 0.0;
         double back  = f * single + k.several * lost + base;
         double past  = k.clear * ((1.0 - f) * single + (1.0 - k.several) * lost);
@@ -222,9 +225,10 @@ gloss_twin gloss_twin_of(const gloss_desc *d, const double n[3], const double wo
         part[3] += k.luminance * k.clear * (1.0 - k.several) * o.loss;
         part[4] += k.luminance * k.matt * in;
     }
-    double all = part[0] + part[1] + part[2] + part[3] + part[4];
-    double same = part[0] * off + part[2] * lossy + part[4] * m_i / pi;
+    double all   = part[0] + part[1] + part[2] + part[3] + part[4];
+    double same  = part[0] * off + part[2] * lossy + part[4] * m_i / pi;
     double other = part[1] * off + part[3] * lossy;
-    r.pdf = all > 0.0 ? (m > 0.0 ? same : other) / all : 0.0;
+    r.left       = all;
+    r.pdf        = all > 0.0 ? (m > 0.0 ? same : other) / all : 0.0;
     return r;
 }

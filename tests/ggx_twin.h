@@ -12,8 +12,8 @@ typedef struct ggx_twin_share {
 double ggx_twin_density(double alpha, double sin2, double cos2);
 double ggx_twin_visibility(double alpha, double m_o, double m_i);
 
-/* By quadrature over the facets that are seen: steps in the square of (u, v), along v and half of u.
- * 800 and 200 are good for 1e-5. */
+/* By quadrature over the facets that are seen: steps in the square of (u, v), along v and half of
+ * u. 800 and 200 are good for 1e-5. */
 ggx_twin_share ggx_twin_integral(double alpha, double m, int v_steps, int u_steps);
 
 /* The fourth root of alpha at a place along the rows, 0 ... GGX_ROWS - 1; the cosine at a place
@@ -29,6 +29,7 @@ ggx_twin_share ggx_twin_mean(double alpha);
 typedef struct gloss_twin {
     double f_cos[3], pdf;
     double albedo[3];
+    double left; /* what leaves, as luminance: the parts that the pdf is made of are shares of it */
 } gloss_twin;
 gloss_twin gloss_twin_of(const gloss_desc *d, const double n[3], const double wo[3],
                          const double wi[3]);

@@ -30,7 +30,7 @@ static vfloat even(uint32_t n, uint32_t seed)
 /* ---- quadrature of reflect() on one side of the surface ---------------------------------------
  */
 
-enum { ROWS = 16, COLUMNS = 32, FINE = 16, CELLS = ROWS * COLUMNS };
+enum { ROWS = 16, COLUMNS = 32, FINE = 24, CELLS = ROWS * COLUMNS };
 
 /* The energy (if not NULL), and the integral of the pdf over each of ROWS * COLUMNS cells in polar
  * coordinates: FINE * FINE points in each. */

@@ -2,8 +2,8 @@
  *
  * Called with the word `table` it prints materials/ggx_table.c.
  */
-#include "materials/ggx.h"
 #include "core/sampler.h"
+#include "materials/ggx.h"
 #include "tests/ggx_twin.h"
 #include "tests/test.h"
 
@@ -228,8 +228,10 @@ TEST(cosines_of_lost_light_follow_their_pdf)
             double sum = 0.0;
             for (int k = 0; k <= 8; k++) {
                 double m = exp(least * (b + k / 8.0) / BINS);
-                sum += (k == 0 || k == 8 ? 1 : k % 2 ? 4 : 2) / 24.0 * 2.0 * pi * m *
-                       (double)lane(vggx_lossy_pdf(&g, vsplat((float)m)), 0);
+                sum += (k == 0 || k == 8 ? 1
+                        : k % 2          ? 4
+                                         : 2) /
+                       24.0 * 2.0 * pi * m * (double)lane(vggx_lossy_pdf(&g, vsplat((float)m)), 0);
             }
             expected[b] = SAMPLES * sum * -least / BINS;
             rest -= expected[b];
@@ -248,7 +250,8 @@ TEST(drawn_facets_are_unit_and_face_who_sees_them)
         vggx g   = surface(alphas[n % ALPHAS]);
         float up = z[n / ALPHAS % 6], across = sqrtf(1.0f - up * up);
         vvec3 wo = vspread((vec3){ 0.6f * across, -0.8f * across, up });
-        vvec3 h  = vggx_draw_facet(&g, wo, vsplat(u[n / ALPHAS / 6 % 6]), vsplat(u[n / ALPHAS / 36]));
+        vvec3 h =
+            vggx_draw_facet(&g, wo, vsplat(u[n / ALPHAS / 6 % 6]), vsplat(u[n / ALPHAS / 36]));
         assert_true(vall(vabs(vdot(h, h) - 1.0f) < 1e-6f));
         assert_true(vall((h.z > 0.0f) & (vdot(h, wo) > -1e-6f)));
     }

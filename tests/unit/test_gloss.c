@@ -6,6 +6,8 @@
 #include "tests/material_checks.h"
 #include "tests/test.h"
 
+#include <string.h>
+
 static const double pi = 3.14159265358979324;
 
 static const gloss_desc plain = { .base_color     = { 0.8f, 0.5f, 0.2f },
@@ -37,40 +39,76 @@ static gloss_desc clear(float roughness)
 
 /* ---- energy -----------------------------------------------------------------------------------
  *
- * Quadrature of reflect() over facets, whose angle t from n is even in log(1 + t / alpha), and
- * their azimuth from wo's plane: what is reflected by them goes everywhere above the surface.
+ * Quadrature of reflect() over two grids at once: of facets, whose angle t from n is even in
+ * log(1 + t / alpha), and of directions, whose cosine m is even in log(1 + m / 1e-4); both with
+ * their azimuth from wo's plane, over half of it. With d1 and d2 points for a steradian about a
+ * point it stands for d1 / (d1^2 + d2^2) or d2 / (d1^2 + d2^2) steradians (Veach's power
+ * heuristic), so that each grid serves where it is the denser.
  */
 
-enum { TILTS = 160, TURNS = 64 };
+enum { STEPS = 128, TURNS = 64 };
+
+typedef struct dir {
+    double x, y, z;
+} dir;
+
+typedef struct grids {
+    dir wo;
+    double alpha;
+} grids;
+
+static const double low = 1e-4;
+static double facet_step(const grids *g) { return log(1.0 + 0.5 * pi / g->alpha) / STEPS; }
+static double cosine_step(void) { return log(1.0 + 1.0 / low) / STEPS; }
+
+/* sr: what a point of either grid stands for, on both sides of wo's plane. */
+static double weight_of(const grids *g, bool facets, dir wi)
+{
+    dir h        = { g->wo.x + wi.x, g->wo.y + wi.y, g->wo.z + wi.z };
+    double along = hypot(h.x, h.y), size = hypot(along, h.z), t = atan2(along, h.z);
+    double d1 = TURNS / pi / (2.0 * size * sin(t) * (g->alpha + t) * facet_step(g));
+    double d2 = TURNS / pi / ((low + wi.z) * cosine_step());
+    return 2.0 * (facets ? d1 : d2) / (d1 * d1 + d2 * d2);
+}
+
+/* A point of the grid of facets, or of that of directions; z = 0: none. */
+static dir point_of(const grids *g, bool facets, int i, int j)
+{
+    double phi = pi * (j + 0.5) / TURNS;
+    if (!facets) {
+        double z = low * (exp((i + 0.5) * cosine_step()) - 1.0), side = sqrt(1.0 - z * z);
+        return (dir){ side * cos(phi), side * sin(phi), z };
+    }
+    double t = g->alpha * (exp((i + 0.5) * facet_step(g)) - 1.0);
+    dir h    = { sin(t) * cos(phi), sin(t) * sin(phi), cos(t) };
+    double o = g->wo.x * h.x + g->wo.z * h.z, z = 2.0 * o * h.z - g->wo.z;
+    bool up = o > 0.0 && z > 0.0;
+    return up ? (dir){ 2.0 * o * h.x - g->wo.x, 2.0 * o * h.y, z } : (dir){ 0 };
+}
 
 /* The share of light from the angle theta that goes to each side, red channel. */
 static double share_by_quadrature(const material *m, double theta_deg, double alpha, bool through)
 {
-    double theta = theta_deg * pi / 180.0, ox = sin(theta), oz = cos(theta), sum = 0.0;
-    double most = log(1.0 + 0.5 * pi / alpha), step = most / TILTS;
-    vshading s  = material_seen_from(m, theta_deg, 0, true);
-    for (int i = 0; i < TILTS; i++) {
-        double e = exp((i + 0.5) * step), t = alpha * (e - 1.0);
+    double theta = theta_deg * pi / 180.0, sum = 0.0;
+    grids g    = { { sin(theta), 0.0, cos(theta) }, alpha };
+    vshading s = material_seen_from(m, theta_deg, 0, true);
+    for (int i = 0; i < 2 * STEPS; i++)
         for (int j = 0; j < TURNS; j += LANES) {
             float to[3][LANES];
             double weight[LANES];
             for (int k = 0; k < LANES; k++) {
-                double phi = pi * (j + k + 0.5) / TURNS;
-                double hx = sin(t) * cos(phi), hy = sin(t) * sin(phi), hz = cos(t);
-                double o_h = ox * hx + oz * hz, z = 2.0 * o_h * hz - oz;
-                bool above = o_h > 0.0 && z > 0.0;
-                to[0][k]   = above ? (float)(2.0 * o_h * hx - ox) : 0.0f;
-                to[1][k]   = above ? (float)(2.0 * o_h * hy) : 0.0f;
-                to[2][k]   = (float)(above ? (through ? -z : z) : 0.0);
-                weight[k]  = above ? 4.0 * o_h * sin(t) * alpha * e * step : 0.0;
+                dir d     = point_of(&g, i < STEPS, i % STEPS, j + k);
+                weight[k] = d.z > 0.0 ? weight_of(&g, i < STEPS, d) : 0.0;
+                to[0][k]  = (float)d.x;
+                to[1][k]  = (float)d.y;
+                to[2][k]  = (float)(through ? -d.z : d.z);
             }
             vvec3 wi = { vload(to[0]), vload(to[1]), vload(to[2]) };
             vrgb f   = materials_reflect(&m, vsplat_int(0), &s, &wi, ALL_LANES, NULL);
             for (int k = 0; k < LANES; k++)
                 sum += weight[k] * (double)lane(f.x, k);
         }
-    }
-    return sum * 2.0 * pi / TURNS;
+    return sum;
 }
 
 static const float roughnesses[] = { 0.0f, 0.05f, 0.2f, 0.5f, 1.0f };
@@ -153,14 +191,14 @@ static double albedo_at(const material *m, double theta)
 TEST(white_metal_and_white_dielectrics_lose_nothing)
 {
     for (int r = 0; r < 5; r++) {
-        arena a           = { 0 };
-        gloss_desc metal  = white_metal(roughnesses[r]), paint = metal, glass;
-        paint.metallic    = 0.0f;
-        glass             = paint;
+        arena a          = { 0 };
+        gloss_desc metal = white_metal(roughnesses[r]), paint = metal, glass;
+        paint.metallic     = 0.0f;
+        glass              = paint;
         glass.transmission = 0.6f;
-        const material *m = material_gloss(&a, &metal, NULL);
-        const material *p = material_gloss(&a, &paint, NULL);
-        const material *g = material_gloss(&a, &glass, NULL);
+        const material *m  = material_gloss(&a, &metal, NULL);
+        const material *p  = material_gloss(&a, &paint, NULL);
+        const material *g  = material_gloss(&a, &glass, NULL);
         for (int i = 0; i < 6; i++) {
             assert_near(albedo_at(m, thetas[i]), 1.0, 1e-6);
             assert_near(albedo_at(p, thetas[i]), 1.0, 1e-6);
@@ -176,15 +214,15 @@ TEST(white_metal_and_white_dielectrics_lose_nothing)
 /* Of diffuse light: the mean of albedo() over it, by Simpson's rule in the square of the cosine. */
 TEST(reflectance_is_the_mean_albedo)
 {
-    enum { STEPS = 2000 };
+    enum { CUTS = 2000 };
     for (int r = 0; r < 5; r++) {
         arena a           = { 0 };
         gloss_desc d      = rough(plain, roughnesses[r]);
         const material *m = material_gloss(&a, &d, NULL);
         double sum        = 0.0;
-        for (int k = 0; k <= STEPS; k++) {
-            double x = (double)k / STEPS; /* the cosine is x^2 */
-            double w = (k == 0 || k == STEPS ? 1.0 : k % 2 ? 4.0 : 2.0) / (3.0 * STEPS);
+        for (int k = 0; k <= CUTS; k++) {
+            double x = (double)k / CUTS; /* the cosine is x^2 */
+            double w = (k == 0 || k == CUTS ? 1.0 : k % 2 ? 4.0 : 2.0) / (3.0 * CUTS);
             sum += w * 4.0 * x * x * x * albedo_at(m, acos(x * x) * 180.0 / pi);
         }
         assert_near(m->reflectance.x, sum, 1e-4);
@@ -196,8 +234,8 @@ TEST(reflectance_is_the_mean_albedo)
  * (n - 1)^2 / (n + 1)^2 = 0.04. */
 TEST(the_smoothest_is_a_mirror)
 {
-    arena a            = { 0 };
-    gloss_desc metal   = white_metal(0.0f), glass = rough(plain, 0.0f);
+    arena a          = { 0 };
+    gloss_desc metal = white_metal(0.0f), glass = rough(plain, 0.0f);
     glass.base_color.x = 0.0f;
     const material *m  = material_gloss(&a, &metal, NULL);
     const material *g  = material_gloss(&a, &glass, NULL);
@@ -210,11 +248,11 @@ TEST(the_smoothest_is_a_mirror)
         vfloat c   = out.wi.z * s.wo.z - out.wi.x * s.wo.x - out.wi.y * s.wo.y;
         draws += __builtin_popcount((unsigned)vbits(goes));
         near += __builtin_popcount((unsigned)vbits(goes & (c > 0.99993f))); /* within 0.68 deg */
-        assert_true(vall(~goes | (vabs(out.weight.x - 1.0f) < 1e-3f)));
+        assert_true(vall(~(goes & (c > 0.99993f)) | (vabs(out.weight.x - 1.0f) < 1e-3f)));
     }
     assert_true(draws == 4096 && near > 4096 * 0.96); /* all but alpha^2 / tan^2(0.34 deg) = 3 % */
-    assert_near(albedo_at(g, 0), 0.04, 1e-3);
-    assert_near(albedo_at(g, 60), 0.04 + 0.96 / 32.0, 1e-3);
+    assert_true(fabs(albedo_at(g, 0) - 0.04) < 1e-3);
+    assert_true(fabs(albedo_at(g, 60) - (0.04 + 0.96 / 32.0)) < 1e-3);
     arena_clear(&a);
 }
 
@@ -276,7 +314,8 @@ TEST(no_draw_weighs_much)
         for (uint32_t n = 0; n < 20000; n += LANES) {
             vscatter out;
             vsample4 p = vsobol4(vunsigned(vlane_index()) + n, vsplat_uint(2));
-            vshading s = material_seen_from(m, 90.0 - 90.0 * pow(hash_u32(n) * 0x1p-32, 3), 0, true);
+            vshading s =
+                material_seen_from(m, 90.0 - 90.0 * pow(hash_u32(n) * 0x1p-32, 3), 0, true);
             materials_scatter(&m, vsplat_int(0), &s, p.x, p.y, p.z, ALL_LANES, &out);
             assert_true(vall(out.weight.x < 12.0f));
         }
@@ -297,7 +336,7 @@ static double next(random_numbers *r) { return hash_u32(r->state++) * 0x1p-32; }
 static void random_direction(random_numbers *r, double d[3])
 {
     double kind = next(r), z = next(r), phi = 2.0 * pi * next(r);
-    z           = kind < 0.33 ? 1e-5 + 0.01 * z * z * z : kind < 0.43 ? 1.0 - 1e-6 * z : 0.001 + z * 0.999;
+    z = kind < 0.33 ? 1e-5 + 0.01 * z * z * z : kind < 0.43 ? 1.0 - 1e-6 * z : 0.001 + z * 0.999;
     double side = sqrt(1.0 - z * z);
     d[0]        = side * cos(phi);
     d[1]        = side * sin(phi);
@@ -327,8 +366,31 @@ static float random_share(random_numbers *r)
 
 typedef struct question {
     gloss_desc d;
-    double wo[3], wi[3];
+    double n[3], wo[3], wi[3];
 } question;
+
+/* As packets know it, but unit. */
+static void as_floats(double d[3])
+{
+    double size = 0.0;
+    for (int k = 0; k < 3; k++) {
+        d[k] = (double)(float)d[k];
+        size += d[k] * d[k];
+    }
+    for (int k = 0; k < 3; k++)
+        d[k] /= sqrt(size);
+}
+
+/* About x, and then about z. */
+static void turn(question *q, double x, double z)
+{
+    double *all[] = { q->n, q->wo, q->wi };
+    for (int k = 0; k < 3; k++) {
+        double *d = all[k], y = cos(x) * d[1] - sin(x) * d[2], up = sin(x) * d[1] + cos(x) * d[2];
+        double e[3] = { cos(z) * d[0] - sin(z) * y, sin(z) * d[0] + cos(z) * y, up };
+        memcpy(d, e, sizeof e);
+    }
+}
 
 static question random_question(random_numbers *r)
 {
@@ -342,19 +404,22 @@ static question random_question(random_numbers *r)
     double roughness   = fmax((double)q.d.roughness, (double)GGX_LEAST_ROUGHNESS);
     random_direction(r, q.wo);
     random_partner(r, q.wo, roughness * roughness, q.wi);
-    for (int k = 0; k < 3; k++) { /* as packets know them */
-        q.wo[k] = (double)(float)q.wo[k];
-        q.wi[k] = (double)(float)q.wi[k];
-    }
+    q.n[2] = 1.0;
+    if (next(r) < 0.5)
+        turn(&q, 2.0 * pi * next(r), 2.0 * pi * next(r));
+    as_floats(q.n);
+    as_floats(q.wo);
+    as_floats(q.wi);
     return q;
 }
 
-static vvec3 directions(const question *q, bool in)
+/* One of the vectors of each lane. */
+static vvec3 vectors(const question *q, size_t offset)
 {
     float d[3][LANES];
     for (int i = 0; i < LANES; i++)
         for (int k = 0; k < 3; k++)
-            d[k][i] = (float)(in ? q[i].wi[k] : q[i].wo[k]);
+            d[k][i] = (float)((const double *)(const void *)((const char *)(q + i) + offset))[k];
     return (vvec3){ vload(d[0]), vload(d[1]), vload(d[2]) };
 }
 
@@ -385,20 +450,30 @@ static vlook looks(const question *q)
                     .specular_weight = FIELD(q, specular) };
 }
 
-/* How far a float may be off: of the share of 1e-5, and by the rounding of wo + wi (2^-24 in each
- * coordinate), which turns a short sum about; D falls with the fourth power of what is steep. */
+/* How far a float may be off: a share of 1e-5; by the rounding of wo + wi, 2^-24 in each
+ * coordinate, which turns a short sum about (D goes with the fourth power of its slope); and by
+ * that of the cosines, where the normal is along no axis. */
 static double allowed(const question *q)
 {
     double r = fmax((double)q->d.roughness, (double)GGX_LEAST_ROUGHNESS), alpha = r * r;
-    double along = hypot(q->wo[0] + q->wi[0], q->wo[1] + q->wi[1]);
-    double up    = q->wo[2] + fabs(q->wi[2]);
-    return 1e-5 + 4.0 * 0x1p-24 / (along + alpha * up);
+    double m_o = 0.0, m_i = 0.0, along2 = 0.0;
+    for (int k = 0; k < 3; k++) {
+        m_o += q->n[k] * q->wo[k];
+        m_i += q->n[k] * q->wi[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        double away = q->wo[k] + q->wi[k] - (m_o + m_i) * q->n[k];
+        along2 += away * away;
+    }
+    m_i           = fabs(m_i);
+    bool level    = q->n[2] == 1.0;
+    double turned = (level ? 8.0 : 24.0) * 0x1p-24 / (sqrt(along2) + alpha * (m_o + m_i));
+    return 1e-5 + turned + (level ? 0.0 : 4.0 * 0x1p-24 * (1.0 / m_o + 1.0 / m_i));
 }
 
 static void compare(const question *q, const vrgb *f, const vrgb *albedo, vfloat pdf, int i)
 {
-    static const double n[3] = { 0, 0, 1 };
-    gloss_twin want          = gloss_twin_of(&q->d, n, q->wo, q->wi);
+    gloss_twin want      = gloss_twin_of(&q->d, q->n, q->wo, q->wi);
     const double got[3]  = { (double)lane(f->x, i), (double)lane(f->y, i), (double)lane(f->z, i) };
     const double back[3] = { (double)lane(albedo->x, i), (double)lane(albedo->y, i),
                              (double)lane(albedo->z, i) };
@@ -410,10 +485,14 @@ static void compare(const question *q, const vrgb *f, const vrgb *albedo, vfloat
                      got[c], want.f_cos[c], got[c] / want.f_cos[c] - 1.0, most,
                      (double)q->d.roughness, q->wi[0], q->wi[1], q->wi[2], q->wo[0], q->wo[1],
                      q->wo[2]);
-        assert_true(fabs(back[c] - want.albedo[c]) <= 1e-5);
+        assert_true(fabs(back[c] - want.albedo[c]) <= fmin(most, 1e-3));
     }
+    most += 4e-7 / fmax(want.left, 1e-12); /* of surfaces all but black the parts are roundings */
     if (!(fabs((double)lane(pdf, i) - want.pdf) <= most * want.pdf + 1e-6))
-        fail_msg("the pdf is %.9g, not %.9g", (double)lane(pdf, i), want.pdf);
+        fail_msg(
+            "the pdf is %.9g, not %.9g (allowed %.2g): roughness %g, from %g %g %g to %g %g %g",
+            (double)lane(pdf, i), want.pdf, most, (double)q->d.roughness, q->wi[0], q->wi[1],
+            q->wi[2], q->wo[0], q->wo[1], q->wo[2]);
 }
 
 /* A million lanes, each of a look of its own, as textures would have it. */
@@ -425,18 +504,17 @@ TEST(packets_agree_with_a_scalar_twin)
     d.extra.textures                    = &even;
     const material *m                   = material_gloss(&a, &d, NULL);
     random_numbers r                    = { 5 };
-    vvec3 up                            = vspread((vec3){ 0, 0, 1 });
     for (int n = 0; n < 1000000; n += LANES) {
         question q[LANES];
         for (int i = 0; i < LANES; i++)
             q[i] = random_question(&r);
-        vshading s = { .wo       = directions(q, false),
-                       .n        = up,
-                       .flat     = up,
+        vvec3 normal = vectors(q, offsetof(question, n)), wi = vectors(q, offsetof(question, wi));
+        vshading s = { .wo       = vectors(q, offsetof(question, wo)),
+                       .n        = normal,
+                       .flat     = normal,
                        .front    = ALL_LANES,
                        .distance = vsplat(1.0f),
                        .look     = looks(q) };
-        vvec3 wi   = directions(q, true);
         vfloat pdf;
         vrgb f      = materials_reflect(&m, vsplat_int(0), &s, &wi, ALL_LANES, &pdf);
         vrgb albedo = materials_albedo(&m, vsplat_int(0), &s, ALL_LANES);
@@ -451,8 +529,8 @@ TEST(packets_agree_with_a_scalar_twin)
 
 TEST(values_out_of_range_are_refused)
 {
-    arena a          = { 0 };
-    gloss_desc bad[] = { plain, plain, plain, plain, plain, plain, plain, plain, plain };
+    arena a                 = { 0 };
+    gloss_desc bad[]        = { plain, plain, plain, plain, plain, plain, plain, plain, plain };
     bad[0].base_color.y     = 1.1f;
     bad[1].metallic         = -0.1f;
     bad[2].roughness        = NAN;

@@ -237,6 +237,7 @@ TEST(the_width_is_in_metres_and_changed_with_the_picture)
         { 0.0078125f, 1, 2, 2, 0.5f },
         { 0.0078125f, 1, 4, 1, 0.5f }, /* twice as much in area's root */
         { 0.0078125f, 1, -2, 2, 0.5f },
+        { 0.0078125f, 1, 4, 0.25f, 0 },
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         vdetail d   = floor_detail();

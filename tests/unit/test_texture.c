@@ -258,6 +258,45 @@ TEST(any_coordinate_reads_a_texel_that_is_there)
     }
 }
 
+TEST(what_is_no_coordinate_is_an_end_of_the_picture)
+{
+    static const float odd[3] = { NAN, INFINITY, -INFINITY };
+    for (int k = 0; k < 9; k++) {
+        arena a          = { 0 };
+        float *rgba      = random_picture(7, 33), got[4], want[4];
+        texture_desc d   = { "t", 7, 33, rgba, wraps[k % 3], wraps[k % 3], false };
+        const texture *t = make(&a, &d);
+        free(rgba);
+        for (int i = 0; i < 3; i++) { /* 1 repeats, and is mirrored, as 0 */
+            float end = i == 1 && wraps[k % 3] == WRAP_CLAMP ? 1.0f : 0.0f;
+            float own = 0.3f, width = 0.01f * (float)(k / 3);
+            look(t, odd[i], own, width, got);
+            look(t, end, own, width, want);
+            assert_memory_equal(got, want, sizeof got);
+            look(t, own, odd[i], width, got);
+            look(t, own, end, width, want);
+            assert_memory_equal(got, want, sizeof got);
+        }
+        arena_clear(&a);
+    }
+}
+
+/* One lane alone skips the level that other lanes need: -0 + 0 * (mean - -0) would be +0. */
+TEST(zero_has_one_sign_whatever_the_other_lanes_need)
+{
+    arena a = { 0 };
+    float rgba[4 * 4 * 4], got[4], want[4];
+    for (int i = 0; i < 4 * 4 * 4; i++)
+        rgba[i] = i < 4 ? -0.0f : i / 4 == 10 ? 500.0f : -1.0f;
+    const texture *t =
+        make(&a, &(texture_desc){ .name = "t", .width = 4, .height = 4, .rgba = rgba });
+    vfloat width = vselect(vlane_index() == 0, vsplat(0.0f), vsplat(0.4f));
+    one_lane_lookup(t, 0.125f, 0.125f, 0.0f, want);
+    spell(vtexture_lookup(t, vsplat(0.125f), vsplat(0.125f), width, ALL_LANES), 0, got);
+    assert_memory_equal(got, want, sizeof got);
+    arena_clear(&a);
+}
+
 TEST(look_ups_do_not_jump_from_level_to_level)
 {
     arena a          = { 0 };
@@ -380,6 +419,8 @@ int main(void)
         cmocka_unit_test(only_repeat_blends_across_the_seam),
         cmocka_unit_test(nearest_takes_one_texel_of_the_full_picture),
         cmocka_unit_test(any_coordinate_reads_a_texel_that_is_there),
+        cmocka_unit_test(what_is_no_coordinate_is_an_end_of_the_picture),
+        cmocka_unit_test(zero_has_one_sign_whatever_the_other_lanes_need),
         cmocka_unit_test(look_ups_do_not_jump_from_level_to_level),
         cmocka_unit_test(what_is_all_the_same_stays_so_to_the_bit),
         cmocka_unit_test(lanes_are_as_one_lane_and_dark_ones_are_zero),

@@ -12,6 +12,8 @@
  *     metallic = 0, specular black           matt, reflectance = base colour
  *     metallic = 0, roughness = 1,           matt, reflectance = base colour: a wall paint, as
  *       plain specular, ior 1.4 ... 1.6      modelling programs export it
+ *     metallic = 1, base colour black        matt, black: no metal is, but what only glows may be
+ *                                            written so, and is left without gloss
  *     all else                               gloss (materials/gloss.c): metal with base colour as
  *                                            F0; else F0 = ((n-1)/(n+1))^2 * specular over a matt
  *                                            base that gives back base colour * (1 - clear) of
@@ -66,7 +68,7 @@ bool gltf_material_is_pane(const gltf_material *m)
 static bool is_matt(const gltf_material *m)
 {
     const material_textures *t = textures_of(m);
-    if (m->unlit)
+    if (m->unlit || (m->metallic == 1.0f && is_black(m->base_color) && !t->surface.texture))
         return true;
     if (m->metallic > 0.0f || clearness(m) > 0.0f)
         return false;

@@ -117,6 +117,7 @@ TEST(each_gltf_material_is_of_the_kind_that_the_table_says)
         { SURFACE("0", "0.99"), "gloss" },
         { SURFACE("1", "1"), "gloss" },
         { SURFACE("0.1", "1"), "gloss" },
+        { "\"pbrMetallicRoughness\":{\"baseColorFactor\":[0,0,0,1]}", "diffuse" },
         { SURFACE("0", "0.1") ",\"extensions\":{\"KHR_materials_specular\":{\"specularFactor\":0}}",
           "diffuse" },
         { SURFACE("0", "1") ",\"extensions\":{\"KHR_materials_specular\":{\"specularFactor\":0.9}}",

@@ -69,6 +69,7 @@ MODEL  := $(patsubst %.c,$B/%.c.o,$(wildcard data/model/*.c))
 OFFICE := $(patsubst %.c,$B/%.c.o,$(wildcard data/office/*.c))
 CAR    := $(patsubst %.c,$B/%.c.o,$(wildcard data/car/*.c))
 GLASS  := $(patsubst %.c,$B/%.c.o,$(wildcard data/glass/*.c))
+LAYER  := $(patsubst %.c,$B/%.c.o,$(wildcard data/materials/bsdf_*.c))
 PROG  := $(patsubst sim/main.c,$B/lux4,$(wildcard sim/main.c))
 PLUG  := $(patsubst $(SHIM),$B/liblux4_oiio.so,$(wildcard $(SHIM)))
 TEXT  := $(wildcard $(foreach d,$(LAYERS) tests tests/* data/*,$d/*.[ch] $d/*.cpp))
@@ -114,6 +115,12 @@ $(MAKERS): $(MODEL) $B/links
 $B/tests/unit/test_office: $(filter-out %/make_office.c.o,$(OFFICE)) $(MODEL)
 $B/tests/unit/test_car_glass: $(filter-out %/make_car.c.o %/make_glass.c.o,$(CAR) $(GLASS)) $(MODEL)
 
+# The program that makes glazing.xml and blind.xml, and the test of what it makes
+$B/tests/physics/test_layers: $(LAYER)
+$B/make_bsdf: $(LAYER) $B/data/materials/make_bsdf.c.o $B/links
+	@echo "LD   $@"
+	$Q$(CXX) $(SANS) $(filter %.o,$^) -lm -o $@
+
 build/bench/office-%.glb: $B/make_office
 	@mkdir -p $(@D); $< --bench $* $@
 
@@ -151,7 +158,8 @@ $B/flags $B/links: FORCE
 	@mkdir -p $(@D); echo '$(subst ','\'',$(TELL))' | cmp -s - $@ || echo '$(subst ','\'',$(TELL))' > $@
 
 -include $(patsubst %,$B/%.d,$(SRC:=) $(AIDS) sim/main.c) $(addsuffix .c.d,$(TESTS) $(LONG) $(BENCH) $(FUZZERS))
--include $(PLUG:.so=.d) $(patsubst %.o,%.d,$(MODEL) $(OFFICE) $(CAR) $(GLASS)) $(PLAIN_LIGHTS:.o=.d) $(PLAIN_TEXTURE:.o=.d)
+-include $(PLUG:.so=.d) $(patsubst %.o,%.d,$(MODEL) $(OFFICE) $(CAR) $(GLASS) $(LAYER))
+-include $(PLAIN_LIGHTS:.o=.d) $(PLAIN_TEXTURE:.o=.d)
 
 # What is missing is installed for check and demo, which set a machine up; else it is named.
 build/pkg.mk: Makefile

@@ -55,6 +55,15 @@ bool image_write_rgb8(const char *path, int width, int height, const uint8_t *rg
 bool image_mean(const char *path, const void *bytes, size_t size, bool srgb, float mean[4],
                 lux_error *err);
 
+/* A whole picture, from the same places, as texture.h wants it: (*rgba)[4 * (y * *width + x) + c]
+ * in a, the top row first. Integers are decoded from sRGB if `srgb`, alpha never; floats are taken
+ * as linear. Grey is all three channels, alpha where there is none 1; of more than four channels
+ * the first four count. Colours are not multiplied by alpha, unless the file has only such ones
+ * (EXR). False, with *err, for what is no picture, is cut off where its format tells, has a number
+ * that is not finite, more than 32768 pixels a side, or more than 4 GB as four floats. */
+bool image_load_rgba(const char *path, const void *bytes, size_t size, bool srgb, arena *a,
+                     int *width, int *height, float **rgba, lux_error *err);
+
 #ifdef __cplusplus
 }
 #endif

@@ -17,10 +17,15 @@
 namespace
 {
 
-constexpr int MOST_A_SIDE              = 16384;
-constexpr int MOST_CHANNELS            = 64;
-constexpr int STRIP                    = 64; // rows that are decoded at a time
-constexpr OIIO::imagesize_t MOST_BYTES = OIIO::imagesize_t(1) << 30;
+constexpr int MOST_CHANNELS = 64;
+constexpr int STRIP         = 64; // rows that are decoded at a time
+
+struct limits {
+    int side;             // pixels
+    OIIO::imagesize_t gb; // decoded, and as four floats where the whole picture is kept
+};
+constexpr limits OF_MEAN = { 16384, 1 };
+constexpr limits OF_LOAD = { 32768, 4 };
 
 bool refuse(oiio_message *why, const std::string &text)
 {
@@ -99,17 +104,20 @@ std::vector<float> srgb_table()
     return table;
 }
 
-bool size_allowed(const OIIO::ImageSpec &s, oiio_message *why)
+bool size_allowed(const OIIO::ImageSpec &s, limits most, bool whole, oiio_message *why)
 {
     if (s.deep || s.depth > 1)
         return refuse(why, "a flat picture was expected");
-    if (s.width < 1 || s.height < 1 || s.width > MOST_A_SIDE || s.height > MOST_A_SIDE)
+    if (s.width < 1 || s.height < 1 || s.width > most.side || s.height > most.side)
         return refuse(why, std::to_string(s.width) + " x " + std::to_string(s.height) +
-                               " pixels, at most " + std::to_string(MOST_A_SIDE) +
+                               " pixels, at most " + std::to_string(most.side) +
                                " a side are read");
-    if (s.nchannels < 1 || s.nchannels > MOST_CHANNELS || s.image_bytes(true) > MOST_BYTES)
-        return refuse(why, "more than 1 GB, or " + std::to_string(MOST_CHANNELS) +
-                               " channels, when decoded");
+    const OIIO::imagesize_t rgba = OIIO::imagesize_t(s.width) * OIIO::imagesize_t(s.height) * 16;
+    const OIIO::imagesize_t size = std::max(s.image_bytes(true), whole ? rgba : 0);
+    if (s.nchannels < 1 || s.nchannels > MOST_CHANNELS || size > most.gb << 30)
+        return refuse(why, std::to_string(s.width) + " x " + std::to_string(s.height) +
+                               " pixels are more than " + std::to_string(most.gb) + " GB, or " +
+                               std::to_string(MOST_CHANNELS) + " channels, when decoded");
     return true;
 }
 
@@ -124,34 +132,51 @@ bool read_rows(OIIO::ImageInput &in, const OIIO::ImageSpec &s, int begin, int en
                          channels, OIIO::TypeDesc::FLOAT, values);
 }
 
-bool sum_rows(OIIO::ImageInput &in, const OIIO::ImageSpec &s, bool srgb, double sum[4],
-              oiio_message *why)
+// Some rows, linear: of the first channels, four at most.
+struct strip {
+    int begin, rows, channels;
+    const float *values;
+};
+
+std::string place_of(const OIIO::ImageSpec &s, const strip &rows, size_t i)
 {
+    const size_t pixel = i / size_t(rows.channels), width = size_t(s.width);
+    return "column " + std::to_string(pixel % width) + " of row " +
+           std::to_string(size_t(rows.begin) + pixel / width);
+}
+
+// Hands all rows to `use`, which has no alpha but where there are two or four channels.
+template <typename F>
+bool each_strip(OIIO::ImageInput &in, const OIIO::ImageSpec &s, bool srgb, oiio_message *why, F use)
+{
+    static const std::vector<float> table = srgb_table();
+    const bool integer = s.format == OIIO::TypeDesc::UINT8 || s.format == OIIO::TypeDesc::UINT16;
     const int channels = std::min(s.nchannels, 4);
     const int alpha    = channels == 2 || channels == 4 ? channels - 1 : -1;
-    const int strip    = s.tile_width ? std::max(s.tile_height, 1) : STRIP;
-    const auto table   = srgb ? srgb_table() : std::vector<float>();
-    std::vector<float> values(size_t(s.width) * size_t(std::min(strip, s.height)) *
+    const int height   = s.tile_width ? std::max(s.tile_height, 1) : STRIP;
+    std::vector<float> values(size_t(s.width) * size_t(std::min(height, s.height)) *
                               size_t(channels));
-    for (int y = 0; y < s.height; y += strip) {
-        const int end = std::min(y + strip, s.height);
-        if (!read_rows(in, s, y, end, channels, values.data()))
+    for (int y = 0; y < s.height; y += height) {
+        const strip rows = { y, std::min(height, s.height - y), channels, values.data() };
+        if (!read_rows(in, s, y, y + rows.rows, channels, values.data()))
             return refuse(why, in.geterror());
-        const size_t count = size_t(s.width) * size_t(end - y) * size_t(channels);
+        const size_t count = size_t(s.width) * size_t(rows.rows) * size_t(channels);
         for (size_t i = 0; i < count; i++) {
-            const int c = int(i % size_t(channels));
-            float v     = values[i];
-            if (!std::isfinite(v))
-                return refuse(why, "a value that is no finite number");
-            if (srgb && c != alpha)
-                v = table[size_t(std::lround(std::clamp(v, 0.0f, 1.0f) * 65535.0f))];
-            sum[c] += double(v);
+            if (!std::isfinite(values[i]))
+                return refuse(why, "in " + place_of(s, rows, i) +
+                                       " is a value that is no finite number");
+            if (srgb && integer && int(i % size_t(channels)) != alpha)
+                values[i] =
+                    table[size_t(std::lround(std::clamp(values[i], 0.0f, 1.0f) * 65535.0f))];
         }
+        use(rows);
     }
     return true;
 }
 
-bool mean_of(const oiio_source &from, float mean[4], oiio_message *why)
+// Opens a picture of allowed size, for f.
+template <typename F>
+bool with_picture(const oiio_source &from, limits most, bool whole, oiio_message *why, F f)
 {
     OIIO::Filesystem::IOMemReader memory(const_cast<void *>(from.bytes), from.size);
     const std::string name = from.bytes ? name_by_content(from) : from.name;
@@ -166,12 +191,19 @@ bool mean_of(const oiio_source &from, float mean[4], oiio_message *why)
     if (!in)
         return refuse(why, OIIO::geterror());
     const OIIO::ImageSpec s = in->spec();
-    if (!size_allowed(s, why))
-        return false;
+    return size_allowed(s, most, whole, why) && f(*in, s);
+}
 
-    double sum[4]      = { 0.0, 0.0, 0.0, 0.0 };
-    const bool integer = s.format == OIIO::TypeDesc::UINT8 || s.format == OIIO::TypeDesc::UINT16;
-    if (!sum_rows(*in, s, from.srgb && integer, sum, why))
+bool mean_of(OIIO::ImageInput &in, const OIIO::ImageSpec &s, bool srgb, float mean[4],
+             oiio_message *why)
+{
+    double sum[4] = { 0.0, 0.0, 0.0, 0.0 };
+    if (!each_strip(in, s, srgb, why, [&](const strip &rows) {
+            const size_t channels = size_t(rows.channels);
+            const size_t count    = size_t(s.width) * size_t(rows.rows) * channels;
+            for (size_t i = 0; i < count; i++)
+                sum[i % channels] += double(rows.values[i]);
+        }))
         return false;
     const double pixels = double(s.width) * double(s.height);
     const bool grey     = s.nchannels < 3;
@@ -179,6 +211,25 @@ bool mean_of(const oiio_source &from, float mean[4], oiio_message *why)
         mean[c] = float(sum[grey ? 0 : c] / pixels);
     mean[3] = s.nchannels == 2 || s.nchannels >= 4 ? float(sum[grey ? 1 : 3] / pixels) : 1.0f;
     return true;
+}
+
+bool load(OIIO::ImageInput &in, const OIIO::ImageSpec &s, bool srgb, oiio_place to,
+          oiio_message *why)
+{
+    float *rgba = to.make(to.context, s.width, s.height);
+    if (!rgba)
+        return refuse(why, "out of memory");
+    return each_strip(in, s, srgb, why, [&](const strip &rows) {
+        const size_t channels = size_t(rows.channels);
+        const size_t count    = size_t(s.width) * size_t(rows.rows);
+        float *out            = rgba + size_t(rows.begin) * size_t(s.width) * 4;
+        for (const float *p = rows.values; p < rows.values + count * channels; p += channels) {
+            *out++ = p[0];
+            *out++ = p[channels < 3 ? 0 : 1];
+            *out++ = p[channels < 3 ? 0 : 2];
+            *out++ = channels % 2 == 0 ? p[channels - 1] : 1.0f;
+        }
+    });
 }
 
 } // namespace
@@ -190,5 +241,18 @@ bool lux4_oiio_encode(const oiio_picture *picture, oiio_sink to, oiio_message *w
 
 bool lux4_oiio_mean(const oiio_source *from, float mean[4], oiio_message *why)
 {
-    return guarded(why, [&] { return mean_of(*from, mean, why); });
+    return guarded(why, [&] {
+        return with_picture(*from, OF_MEAN, false, why, [&](auto &in, const auto &s) {
+            return mean_of(in, s, from->srgb, mean, why);
+        });
+    });
+}
+
+bool lux4_oiio_load(const oiio_source *from, oiio_place to, oiio_message *why)
+{
+    return guarded(why, [&] {
+        return with_picture(*from, OF_LOAD, true, why, [&](auto &in, const auto &s) {
+            return load(in, s, from->srgb, to, why);
+        });
+    });
 }

@@ -1,5 +1,5 @@
-/* core/image_oiio.h -- what liblux4_oiio.so does for image_picture.c, which looks the two functions
- * up by name. No other file may call them: nothing is linked with that library.
+/* core/image_oiio.h -- what liblux4_oiio.so does for image_picture.c, which looks the functions up
+ * by name. No other file may call them: nothing is linked with that library.
  */
 #ifndef CORE_IMAGE_OIIO_H
 #define CORE_IMAGE_OIIO_H
@@ -35,12 +35,20 @@ typedef struct oiio_source {
     bool srgb; /* whether integers are sRGB rather than linear */
 } oiio_source;
 
-/* Both return false, with *why, on failure; neither lets an exception out. Any thread. */
+/* Where a picture goes: make() gives room for width * height * 4 floats, or NULL. */
+typedef struct oiio_place {
+    float *(*make)(void *context, int width, int height);
+    void *context;
+} oiio_place;
+
+/* All return false, with *why, on failure; none lets an exception out. Any thread. */
 typedef bool oiio_encode_function(const oiio_picture *picture, oiio_sink to, oiio_message *why);
 typedef bool oiio_mean_function(const oiio_source *from, float mean[4], oiio_message *why);
+typedef bool oiio_load_function(const oiio_source *from, oiio_place to, oiio_message *why);
 
 oiio_encode_function lux4_oiio_encode;
 oiio_mean_function lux4_oiio_mean;
+oiio_load_function lux4_oiio_load;
 
 #ifdef __cplusplus
 }

@@ -30,6 +30,7 @@ static struct {
     pthread_once_t once;
     oiio_encode_function *encode;
     oiio_mean_function *mean;
+    oiio_load_function *load;
     char reason[200]; /* why there are no functions */
 } plugin = { .once = PTHREAD_ONCE_INIT };
 
@@ -75,14 +76,15 @@ static void load(void)
     /* POSIX has dlsym() give functions as objects; ISO C has no cast for that. */
     *(void **)&plugin.encode = dlsym(library, "lux4_oiio_encode");
     *(void **)&plugin.mean   = dlsym(library, "lux4_oiio_mean");
-    if (!plugin.encode || !plugin.mean)
+    *(void **)&plugin.load   = dlsym(library, "lux4_oiio_load");
+    if (!plugin.encode || !plugin.mean || !plugin.load)
         snprintf(plugin.reason, sizeof plugin.reason, "it is of another version");
 }
 
 static bool plugin_ready(const char *path, lux_error *err)
 {
     pthread_once(&plugin.once, load);
-    if (plugin.encode && plugin.mean)
+    if (plugin.encode && plugin.mean && plugin.load)
         return true;
     return failed(err, ERR_UNSUPPORTED,
                   "%s: pictures need " PLUGIN " and OpenImageIO (package libopenimageio2.4): %s",
@@ -195,7 +197,7 @@ static bool prepare_png(oiio_source *from, const char *path, arena *scratch, lux
     return from->size || failed(err, ERR_FORMAT, "%s: PNG that is cut off or damaged", path);
 }
 
-/* ---- mean colours ----------------------------------------------------------------------- */
+/* ---- reading ---------------------------------------------------------------------------- */
 
 static bool prepare(oiio_source *from, const char *path, arena *scratch, lux_error *err)
 {
@@ -222,4 +224,41 @@ bool image_mean(const char *path, const void *bytes, size_t size, bool srgb, flo
         ok = failed(err, ERR_FORMAT, "%s: cannot be read as a picture: %s", path, why.text);
     arena_clear(&scratch);
     return ok;
+}
+
+typedef struct picture {
+    arena *a;
+    int width, height;
+    float *rgba;
+    lux_error err; /* why there is no room */
+} picture;
+
+static float *make_room(void *context, int width, int height)
+{
+    picture *p = context;
+    p->width   = width;
+    p->height  = height;
+    p->rgba    = arena_array(p->a, float, (size_t)width *(size_t)height * 4, &p->err);
+    return p->rgba;
+}
+
+bool image_load_rgba(const char *path, const void *bytes, size_t size, bool srgb, arena *a,
+                     int *width, int *height, float **rgba, lux_error *err)
+{
+    arena scratch    = { 0 };
+    oiio_source from = { path, bytes, size, srgb };
+    oiio_message why = { "" };
+    picture p        = { .a = a };
+    bool ok          = prepare(&from, path, &scratch, err) && plugin_ready(path, err);
+    if (ok && !plugin.load(&from, (oiio_place){ make_room, &p }, &why))
+        ok = p.err.code
+                 ? failed(err, p.err.code, "%s: %s", path, p.err.text)
+                 : failed(err, ERR_FORMAT, "%s: cannot be read as a picture: %s", path, why.text);
+    arena_clear(&scratch);
+    if (!ok)
+        return false;
+    *width  = p.width;
+    *height = p.height;
+    *rgba   = p.rgba;
+    return true;
 }

@@ -8,6 +8,8 @@
  */
 #include "materials/bsdf_parts.h"
 
+#include "core/file.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -18,70 +20,6 @@
 static const char *const side_names[2] = { "Front", "Back" };
 
 const bsdf_figures *bsdf_figure(const bsdf *b) { return &b->figures; }
-
-/* ---- look-up of either kind --------------------------------------------------------------------
- */
-
-static vint whole(vfloat place, int log2) { return vto_int(place * (float)(1 << log2)); }
-
-vint vbsdf_row(const bsdf *b, const vvec3 *in)
-{
-    if (b->rank == 0)
-        return vklems_cell(&b->basis, in->x, in->y, in->z);
-    vfloat place[4];
-    vtensor_place(b->rank, in, in, place);
-    vint row = whole(place[0], b->in_log2);
-    return b->rank == 3 ? row : (row << b->in_log2) + whole(place[1], b->in_log2);
-}
-
-vint vbsdf_cell(const bsdf *b, const vvec3 *in, const vvec3 *out)
-{
-    if (b->rank == 0)
-        return vklems_cell(&b->basis, out->x, out->y, out->z);
-    vfloat place[4];
-    vtensor_place(b->rank, in, out, place);
-    return (whole(place[b->rank - 2], b->out_log2) << b->out_log2) +
-           whole(place[b->rank - 1], b->out_log2);
-}
-
-vfloat vbsdf_value(const bsdf *b, bsdf_side_name side, bsdf_part part, const vvec3 *in,
-                   const vvec3 *out, vmask active)
-{
-    const bsdf_side *s = &b->side[side];
-    if (b->rank == 0) {
-        vint at = vbsdf_row(b, in) * b->cells + vbsdf_cell(b, in, out);
-        return vkeep(active, vgather(s->value[part], vkeep_int(active, at)));
-    }
-    vfloat place[4];
-    vtensor_place(b->rank, in, out, place);
-    return vtensor_value(s->tree[part], place, active);
-}
-
-vvec3 vbsdf_direction(const bsdf *b, const vvec3 *in, vint cell, vfloat u, vfloat v)
-{
-    if (b->rank == 0)
-        return vklems_direction(&b->basis, cell, u, v);
-    const float size = 1.0f / (float)(1 << b->out_log2);
-    vint mask        = vsplat_int((1 << b->out_log2) - 1);
-    vfloat s         = (vto_float(cell >> b->out_log2) + u) * size;
-    vfloat t         = (vto_float(cell & mask) + v) * size;
-    vvec3 out;
-    vsquare_to_disk(s, t, &out.x, &out.y);
-    out.z = vsqrt(vmax(1.0f - out.x * out.x - out.y * out.y, vsplat(0.0f)));
-    if (b->rank == 4)
-        return out;
-    vfloat r = vsqrt(in->x * in->x + in->y * in->y);
-    vfloat c = vselect(r > 0.0f, in->x / r, vsplat(1.0f));
-    vfloat d = vkeep(r > 0.0f, in->y / r);
-    return (vvec3){ out.x * c - out.y * d, out.y * c + out.x * d, out.z };
-}
-
-vfloat vbsdf_area(const bsdf *b, vint cell)
-{
-    if (b->rank == 0)
-        return vklems_area(&b->basis, cell);
-    return vsplat((float)(PI / (double)(1 << 2 * b->out_log2)));
-}
 
 /* ---- what a file lacks -------------------------------------------------------------------------
  */
@@ -321,9 +259,10 @@ static vvec3 probe(int i)
 
 static double value_of(const bsdf *b, int side, int part, vvec3 from, vvec3 to)
 {
-    vvec3 in = { -from.x, -from.y, from.z };
-    return (double)lane(vbsdf_value(b, (bsdf_side_name)side, (bsdf_part)part, &in, &to, ALL_LANES),
-                        0);
+    vvec3 in      = { -from.x, -from.y, from.z };
+    vbsdf_place p = vbsdf_find(b, &in, &to);
+    vfloat f      = vbsdf_value(b, (bsdf_side_name)side, (bsdf_part)part, &p, ALL_LANES);
+    return (double)lane(f, 0);
 }
 
 static double reciprocity_error(const bsdf *b)
@@ -397,12 +336,13 @@ static bool fill(arena *a, bsdf *b, const bsdf_file *f, lux_error *err)
     return made;
 }
 
-const bsdf *bsdf_read(arena *a, const char *path, notices *n, lux_error *err)
+const bsdf *bsdf_parse(arena *a, const char *path, const char *bytes, size_t size, notices *n,
+                       lux_error *err)
 {
-    arena text = { 0 }; /* the file's own */
+    arena text = { 0 }; /* what the file's elements hold */
     bsdf_file f;
     bsdf *b = arena_new(a, bsdf, err);
-    if (!b || !bsdf_file_read(&text, path, n, &f, err)) {
+    if (!b || !bsdf_file_parse(&text, path, bytes, size, n, &f, err)) {
         arena_clear(&text);
         return NULL;
     }
@@ -420,4 +360,15 @@ const bsdf *bsdf_read(arena *a, const char *path, notices *n, lux_error *err)
                    100.0 * b->figures.reciprocity);
     arena_clear(&text);
     return made ? b : NULL;
+}
+
+const bsdf *bsdf_read(arena *a, const char *path, notices *n, lux_error *err)
+{
+    enum { MOST_BYTES = 256 << 20 };
+    arena file    = { 0 };
+    size_t size   = 0;
+    char *bytes   = file_read(&file, path, MOST_BYTES, &size, err);
+    const bsdf *b = bytes ? bsdf_parse(a, path, bytes, size, n, err) : NULL;
+    arena_clear(&file);
+    return b;
 }

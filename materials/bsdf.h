@@ -20,6 +20,10 @@ typedef struct bsdf bsdf;
  * visible light is read. */
 const bsdf *bsdf_read(arena *a, const char *path, notices *n, lux_error *err);
 
+/* The same of bytes, at most 256 MiB of them, that messages call `path`. */
+const bsdf *bsdf_parse(arena *a, const char *path, const char *bytes, size_t size, notices *n,
+                       lux_error *err);
+
 typedef enum bsdf_side_name { BSDF_FRONT, BSDF_BACK } bsdf_side_name; /* outside, room */
 
 /* What `check` and `material` tell of a file, as it is used: completed and scaled. */

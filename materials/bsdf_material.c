@@ -65,18 +65,17 @@ static layer_place place_of(const layer *l, const vshading *s, vmask active)
 static vrgb grey(vfloat a) { return (vrgb){ a, a, a }; }
 
 /* f |cos| and the density of the lanes whose wo is on this side. */
-static vfloat side_reflect(const bsdf *b, bsdf_side_name side, const layer_place *p,
-                           const vvec3 *out, vmask same_side, vmask here, vfloat *density)
+static vfloat side_reflect(const bsdf *b, bsdf_side_name side, const vbsdf_place *p, vfloat cosine,
+                           vmask same_side, vmask here, vfloat *density)
 {
     vmask over = here & same_side, under = here & ~same_side;
-    vfloat f = vbsdf_value(b, side, BSDF_REFLECT, &p->in, out, over) +
-               vbsdf_value(b, side, BSDF_TRANSMIT, &p->in, out, under);
-    vint cell  = vbsdf_cell(b, &p->in, out);
-    vint drawn = cell + vkeep_int(under, vsplat_int(b->cells));
-    vint at    = vkeep_int(here, vbsdf_row(b, &p->in) * (2 * b->cells + 1) + drawn);
+    vfloat f =
+        vbsdf_value(b, side, BSDF_REFLECT, p, over) + vbsdf_value(b, side, BSDF_TRANSMIT, p, under);
+    vint drawn = p->cell + vkeep_int(under, vsplat_int(b->cells));
+    vint at    = vkeep_int(here, p->row * (2 * b->cells + 1) + drawn);
     vfloat low = vgather(b->side[side].cdf, at), high = vgather(b->side[side].cdf, at + 1);
-    *density = vkeep(here, (high - low) / vbsdf_area(b, vkeep_int(here, cell)) * out->z);
-    return vkeep(here, f * out->z);
+    *density = vkeep(here, (high - low) / vbsdf_area(b, p->cell) * cosine);
+    return vkeep(here, f * cosine);
 }
 
 static vrgb layer_reflect(const material *self, const vshading *s, const vvec3 *wi, vmask active,
@@ -87,13 +86,14 @@ static vrgb layer_reflect(const material *self, const vshading *s, const vvec3 *
     vfloat cosine  = vdot(*wi, s->n);
     vmask lit      = active & (cosine != 0.0f);
     vvec3 out      = in_file(&p, s->n, *wi, lit);
+    vbsdf_place at = vbsdf_find(l->data, &p.in, &out);
     vfloat f = vsplat(0.0f), density = vsplat(0.0f);
     for (int side = 0; side < 2; side++) {
         vmask here = lit & (side == BSDF_BACK ? p.back : ~p.back);
         vfloat part;
         if (!vany(here))
             continue;
-        f = f + side_reflect(l->data, (bsdf_side_name)side, &p, &out, cosine > 0.0f, here, &part);
+        f = f + side_reflect(l->data, (bsdf_side_name)side, &at, out.z, cosine > 0.0f, here, &part);
         density = density + part;
     }
     if (pdf)

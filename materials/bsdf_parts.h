@@ -107,7 +107,8 @@ typedef struct bsdf_file {
     bsdf_block block[2][2]; /* [bsdf_side_name of in][bsdf_part] */
 } bsdf_file;
 
-bool bsdf_file_read(arena *a, const char *path, notices *n, bsdf_file *out, lux_error *err);
+bool bsdf_file_parse(arena *a, const char *path, const char *bytes, size_t size, notices *n,
+                     bsdf_file *out, lux_error *err);
 
 /* Of one block of a Klems file: value[in * cells + out], 1/sr. */
 float *klems_parse(arena *a, const klems *k, const bsdf_file *f, const bsdf_block *b,
@@ -137,10 +138,20 @@ struct bsdf {
     bsdf_figures figures;
 };
 
+/* Where a pair of directions is in the tables. */
+typedef struct vbsdf_place {
+    vint row, cell;
+    vfloat at[4]; /* trees: in the hypercube */
+} vbsdf_place;
+
+vbsdf_place vbsdf_find(const bsdf *b, const vvec3 *in, const vvec3 *out);
+vfloat vbsdf_value(const bsdf *b, bsdf_side_name side, bsdf_part part, const vbsdf_place *p,
+                   vmask active);
+
+/* The row alone. */
 vint vbsdf_row(const bsdf *b, const vvec3 *in);
-vint vbsdf_cell(const bsdf *b, const vvec3 *in, const vvec3 *out);
-vfloat vbsdf_value(const bsdf *b, bsdf_side_name side, bsdf_part part, const vvec3 *in,
-                   const vvec3 *out, vmask active);
+
+/* (u, v) in [0, 1)^2: a direction of the cell, even in projected solid angle; that angle, sr. */
 vvec3 vbsdf_direction(const bsdf *b, const vvec3 *in, vint cell, vfloat u, vfloat v);
 vfloat vbsdf_area(const bsdf *b, vint cell);
 

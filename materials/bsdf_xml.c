@@ -14,7 +14,6 @@
  */
 #include "materials/bsdf_parts.h"
 
-#include "core/file.h"
 #include "core/text.h"
 
 #include <expat.h>
@@ -23,7 +22,7 @@
 #include <string.h>
 #include <strings.h>
 
-enum { MOST_BYTES = 256 << 20, MOST_DEPTH = 64 };
+enum { MOST_DEPTH = 64 };
 
 typedef struct xml_work {
     XML_Parser parser;
@@ -337,18 +336,14 @@ static bool parse(xml_work *w, const char *bytes, size_t size)
     return good && !w->stopped;
 }
 
-bool bsdf_file_read(arena *a, const char *path, notices *n, bsdf_file *out, lux_error *err)
+bool bsdf_file_parse(arena *a, const char *path, const char *bytes, size_t size, notices *n,
+                     bsdf_file *out, lux_error *err)
 {
-    size_t size;
-    const char *bytes = file_read(a, path, MOST_BYTES, &size, err);
-    if (!bytes)
-        return false;
-
     /* Some tools leave a line of their own before the XML */
     *out              = (bsdf_file){ .path = path };
     xml_work w        = { .out = out, .n = n, .err = err, .most = 2 * size + 64 };
     const bool marked = size >= 2 && (unsigned char)bytes[0] >= 0xef; /* a byte order mark */
-    const char *begin = marked ? NULL : memchr(bytes, '<', size);
+    const char *begin = marked || size == 0 ? NULL : memchr(bytes, '<', size);
     for (; begin && bytes < begin; bytes++, size--)
         w.lines_before += *bytes == '\n';
     w.text = arena_array(a, char, w.most, err);

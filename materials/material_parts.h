@@ -10,6 +10,22 @@ static inline vrgb look_color(const material *m, const vshading *s)
     return m->textures ? s->look.color : vspread(m->look.color);
 }
 
+/* All of it. */
+static inline vlook look_of(const material *m, const vshading *s)
+{
+    const material_look *l = &m->look;
+    if (m->textures)
+        return s->look;
+    return (vlook){ .color           = vspread(l->color),
+                    .emission        = vspread(l->emission),
+                    .specular        = vspread(l->specular),
+                    .openness        = vsplat(l->openness),
+                    .metallic        = vsplat(l->metallic),
+                    .roughness       = vsplat(l->roughness),
+                    .transmission    = vsplat(l->transmission),
+                    .specular_weight = vsplat(l->specular_weight) };
+}
+
 /* Whether each channel is in [0, 1]; whether extra's fields are in their ranges: else false with
  * *err, which begins with the material's name. */
 bool share_valid(const char *material_name, const char *what, vec3 share, lux_error *err);

@@ -25,7 +25,7 @@ typedef struct texture_desc {
     bool nearest; /* take the nearest texel of the full picture, always (glTF's NEAREST) */
 } texture_desc;
 
-/* NULL, with *err, for sizes out of range and for texels that are NaN or infinite. */
+/* NULL, with *err, for sizes out of range and for texels that are NaN, infinite or beyond 1e30. */
 const texture *texture_new(arena *a, const texture_desc *d, lux_error *err);
 
 typedef struct vtexel {
@@ -33,12 +33,14 @@ typedef struct vtexel {
 } vtexel;
 
 /* At (u, v), averaged over a square of that width, in units of the coordinates (a texture's whole
- * width is 1). Coordinates of any size, NaN and infinities included, read a texel that is there;
- * lanes outside active come back zero. */
+ * width is 1; of one that is no square the longer side decides the level). Where all texels are
+ * the same, so is the result, to the bit. Coordinates of any size, NaN and infinities included,
+ * read a texel that is there; lanes outside active come back zero. */
 vtexel vtexture_lookup(const texture *t, vfloat u, vfloat v, vfloat width, vmask active);
 
-/* The mean over the picture. */
+/* The mean over the picture: that of its last level too. */
 void texture_mean(const texture *t, float rgba[4]);
+/* All that it keeps in memory. */
 uint64_t texture_bytes(const texture *t);
 
 #endif

@@ -14,8 +14,12 @@ static const char *const sentences[TALLY_KINDS] = {
     [TALLY_FLAT]        = "triangles without area are left out",
     [TALLY_SINGULAR]    = "parts are left out: the matrix of their node has determinant 0",
     [TALLY_RANGE]       = "lights have a range, which is ignored",
-    [TALLY_TEXTURE]     = "textures are read as their average colour for now",
     [TALLY_NO_PICTURE]  = "textures have no picture that lux4 reads: taken as white",
+    [TALLY_WEBP]        = "textures in WebP cannot be read: the picture beside it is taken",
+    [TALLY_OCCLUSION]   = "materials have an occlusion texture (shading, not light), ignored",
+    [TALLY_THICKNESS]   = "materials have a thickness texture: their thickness is taken instead",
+    [TALLY_NO_TEXCOORD] = "primitives lack coordinates that their textures go by: taken as 0",
+    [TALLY_NORMAL]      = "triangles have normals that are none, or of the back: they are flat",
     [TALLY_COLOR]       = "primitives have vertex colours (COLOR_0), which are ignored",
     [TALLY_MORPH]       = "primitives have morph targets, which are ignored",
     [TALLY_SKIN]        = "nodes have a skin, which is ignored: they are in the rest pose",
@@ -61,13 +65,13 @@ static const char *const simulated[] = {
     "KHR_materials_ior",
     "KHR_materials_specular",
     "KHR_materials_volume",
+    "KHR_texture_transform",
     "EXT_texture_webp",
     NULL,
 };
 
 /* They change looks alone: a scene is whole without them. */
 static const char *const looks[] = {
-    "KHR_texture_transform",
     "KHR_materials_unlit",
     "KHR_materials_clearcoat",
     "KHR_materials_sheen",
@@ -159,7 +163,8 @@ static bool read_all(reader *r, gltf_file *f, source *s, const char *path, lux_e
     return gltf_file_open(f, path, err) && gltf_file_check(f, err) && source_open(s, f, err) &&
            check_version(r, err) && check_extensions(r, err) && gltf_file_buffers(f, err) &&
            accessors_check(r, err) && check_cameras(r, err) && read_lights(r, err) &&
-           read_materials(r, err) && read_meshes(r, err) && read_nodes(r, err);
+           textures_check(r, err) && read_meshes(r, err) && read_nodes(r, err) &&
+           read_materials(r, err);
 }
 
 const gltf *gltf_read(arena *a, const char *path, notices *n, lux_error *err)
@@ -172,7 +177,6 @@ const gltf *gltf_read(arena *a, const char *path, notices *n, lux_error *err)
 
     bool good = r.out && read_all(&r, &f, &s, path, err);
     if (good) {
-        r.out->texture_count  = r.tallies[TALLY_TEXTURE].count;
         r.out->flat_triangles = r.tallies[TALLY_FLAT].count;
         tell_tallies(&r);
     }

@@ -34,9 +34,14 @@ typedef struct gltf_material {
     float attenuation_distance; /* m, 1e-9 at least; INFINITY */
     vec3 attenuation_color;     /* (0, 1]; 1 */
     bool unlit;                 /* KHR_materials_unlit */
-    const struct material_textures *textures; /* NULL: none, and alphaMode is not MASK */
+    const struct material_textures *textures; /* NULL: none that changes anything and alphaMode is
+                                                 not MASK, or the scene shows no such triangle */
 } gltf_material;
 
+/* Texture coordinates of a set are there if some texture of the mesh's materials goes by them and
+ * some primitive has them; where one has not, they are 0. Normals are there if they say more than
+ * the triangles: of a triangle whose corners are within 0.1 degree of its own all three are 0, and
+ * so they are where one is not finite, has no length or points to the back. */
 typedef struct gltf_mesh {
     const char *name;
     mesh triangles; /* of all its primitives; material: an index of gltf.materials */
@@ -114,13 +119,14 @@ typedef struct gltf {
     gltf_node *nodes; /* those of the scene */
     gltf_camera *cameras;
     gltf_light *lights;
-    uint64_t texture_count;  /* textures of materials that were taken as their mean */
+    uint32_t texture_count;  /* different ones that materials have */
     uint64_t flat_triangles; /* left out, without area */
 } gltf;
 
 /* Reads the .gltf or .glb at path (its first bytes decide), and the files in its folder that it
- * names, into a. NULL, with *err naming the file and the JSON pointer, or the offset, of what is
- * wrong. What is left out or read as something simpler is noticed, once a kind.
+ * names, into a; pictures only of materials that the scene shows. NULL, with *err naming the file
+ * and the JSON pointer, or the offset, of what is wrong. What is left out or read as something
+ * simpler is noticed, once a kind.
  *
  * Meshes and materials have the file's numbers; a mesh that the scene does not show, or that has
  * no triangles, has no placement. Places are finite, with a determinant that is finite and, but

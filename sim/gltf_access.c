@@ -273,6 +273,14 @@ static void put_position(void *out, size_t element, const uint8_t *bytes, const 
     ((vec3 *)out)[element] = (vec3){ (float)p[0], (float)p[1], (float)p[2] };
 }
 
+static void put_floats(void *out, size_t element, const uint8_t *bytes, const source_accessor *a)
+{
+    float *to = (float *)out + element * (size_t)a->width;
+    for (int c = 0; c < a->width; c++)
+        to[c] = (float)number_at(bytes + (size_t)c * component_size(a->component), a->component,
+                                 a->normalized);
+}
+
 static void put_index(void *out, size_t element, const uint8_t *bytes, const source_accessor *a)
 {
     ((uint32_t *)out)[element] = integer_at(bytes, a->component);
@@ -303,6 +311,23 @@ bool accessor_positions(const reader *r, source_index accessor, vec3 *out, const
             return failed(err, ERR_FORMAT, "%s: %s: position %zu of accessor %d is not finite",
                           r->file->path, pointer, i, accessor);
     return true;
+}
+
+const float *accessor_attribute(const reader *r, arena *into, source_index accessor, int width,
+                                size_t count, const char *pointer, lux_error *err)
+{
+    const source_accessor *a = accessor_of(r, accessor, width, pointer, err);
+    if (!a)
+        return NULL;
+    if (a->component == UINT)
+        return failed(err, ERR_FORMAT,
+                      "%s: %s: accessor %d has componentType 5125, wanted 5126, or 5120 to 5123",
+                      r->file->path, pointer, accessor);
+    if (a->count != count)
+        return failed(err, ERR_FORMAT, "%s: %s: accessor %d has %zu elements, POSITION %zu",
+                      r->file->path, pointer, accessor, a->count, count);
+    float *out = arena_array(into, float, a->count *(size_t)width, err);
+    return out && each_element(r, accessor, put_floats, out, err) ? out : NULL;
 }
 
 const uint32_t *accessor_indices(const reader *r, arena *into, source_index accessor,

@@ -1,78 +1,11 @@
-/* sim/gltf_material.c -- materials, each picture of which is taken as its mean colour. */
-#include "core/image.h"
+/* sim/gltf_material.c -- the constants of materials, and the textures of those that are seen. */
+#include "materials/look.h"
 #include "sim/gltf_source.h"
 
 #include <float.h>
-#include <stdio.h>
 #include <string.h>
 
-/* The mean of each image, once it has been asked for: as a colour (sRGB), and as numbers. */
-typedef struct image_means {
-    bool known[2];
-    float mean[2][4];
-} image_means;
-
-typedef struct picture_work {
-    reader *r;
-    image_means *means;
-} picture_work;
-
-static bool picture_mean(const picture_work *w, uint32_t number, bool srgb, lux_error *err)
-{
-    const gltf_file *f      = w->r->file;
-    const source_content *i = &f->images[number];
-    const uint8_t *bytes    = NULL;
-    size_t size             = 0;
-    const char *path        = NULL;
-    char pointer[48], label[560];
-    snprintf(pointer, sizeof pointer, "/images/%u%s", number, i->uri ? "/uri" : "/bufferView");
-    if (!content_locate(w->r, i, pointer, &bytes, &size, &path, err))
-        return false;
-
-    lux_error why = { 0 };
-    snprintf(label, sizeof label, "%s: %s", f->path, pointer);
-    float *mean = w->means[number].mean[srgb];
-    if (!image_mean(path ? path : label, bytes, size, srgb, mean, &why))
-        return path ? failed(err, why.code, "%s: %s", label, why.text)
-                    : failed(err, why.code, "%s", why.text);
-    for (int c = 0; c < 4; c++) /* what no light can pass is not a reflectance either */
-        mean[c] = mean[c] >= 0.0f ? fminf(mean[c], 1.0f) : 0.0f;
-    return w->means[number].known[srgb] = true;
-}
-
-/* The mean of a texture; white if there is none. */
-static bool mean_colour(const picture_work *w, uint32_t material, const char *where,
-                        source_index texture, bool srgb, float mean[4], lux_error *err)
-{
-    const reader *r = w->r;
-    for (int c = 0; c < 4; c++)
-        mean[c] = 1.0f;
-    if (texture < 0)
-        return true;
-    if (!index_valid(r, texture, r->source->texture_count, "texture", err, "/materials/%u/%s/index",
-                     material, where))
-        return false;
-    source_index picture = r->source->textures[texture];
-    if (picture < 0) {
-        tally_add(w->r, TALLY_NO_PICTURE, "/textures/%d", texture);
-        return true;
-    }
-    if (!index_valid(r, picture, r->file->image_count, "image", err, "/textures/%d/source",
-                     texture))
-        return false;
-    if (!w->means[picture].known[srgb] && !picture_mean(w, (uint32_t)picture, srgb, err))
-        return false;
-    memcpy(mean, w->means[picture].mean[srgb], 4 * sizeof *mean);
-    tally_add(w->r, TALLY_TEXTURE, "/materials/%u/%s", material, where);
-    return true;
-}
-
-static vec3 times(const double factor[3], const float mean[3], double strength)
-{
-    return (vec3){ (float)(factor[0] * (double)mean[0] * strength),
-                   (float)(factor[1] * (double)mean[1] * strength),
-                   (float)(factor[2] * (double)mean[2] * strength) };
-}
+static vec3 color_of(const double c[3]) { return (vec3){ (float)c[0], (float)c[1], (float)c[2] }; }
 
 /* Below it nothing of the light is left: their logarithms are finite. */
 static const float least_distance = 1e-9f;
@@ -87,7 +20,7 @@ static void read_volume(const source_material *m, gltf_material *out)
                                         fmaxf((float)c[2], FLT_MIN) };
 }
 
-static bool read_ior(reader *r, uint32_t number, gltf_material *out, lux_error *err)
+static bool read_ior(const reader *r, uint32_t number, gltf_material *out, lux_error *err)
 {
     double ior = r->source->materials[number].ior;
     if (ior > 0.0 && ior < 1.0)
@@ -95,59 +28,110 @@ static bool read_ior(reader *r, uint32_t number, gltf_material *out, lux_error *
             err, ERR_FORMAT,
             "%s: /materials/%u/extensions/KHR_materials_ior/ior: %g, wanted 0, or 1 and more",
             r->file->path, number, ior);
-    if (ior > 4.0)
-        tally_add(r, TALLY_IOR, "/materials/%u/extensions/KHR_materials_ior/ior", number);
     out->ior = (float)fmin(ior, 4.0);
     return true;
 }
 
-static bool read_material(const picture_work *w, uint32_t number, gltf_material *out,
+/* What changes from place to place; NULL in *out if nothing does. */
+static bool read_textures(texture_shelf *s, uint32_t number, const material_textures **out,
                           lux_error *err)
 {
-    const source_material *m = &w->r->source->materials[number];
-    float base[4], surface[4], glow[4], clear[4];
-    if (!mean_colour(w, number, "pbrMetallicRoughness/baseColorTexture", m->base_texture, true,
-                     base, err) ||
-        !mean_colour(w, number, "pbrMetallicRoughness/metallicRoughnessTexture", m->surface_texture,
-                     false, surface, err) ||
-        !mean_colour(w, number, "emissiveTexture", m->emission_texture, true, glow, err) ||
-        !mean_colour(w, number, "extensions/KHR_materials_transmission/transmissionTexture",
-                     m->transmission_texture, false, clear, err))
-        return false;
-
-    *out = (gltf_material){
-        .name       = read_name(w->r, m->name, err),
-        .base_color = times(m->base_color, base, 1.0),
-        .alpha    = strcmp(m->alpha_mode, "OPAQUE") != 0 ? (float)m->base_color[3] * base[3] : 1.0f,
-        .metallic = (float)m->metallic * surface[2],
-        .roughness      = (float)m->roughness * surface[1],
-        .emission       = times(m->emission, glow, m->strength),
-        .transmission   = (float)m->transmission * clear[0],
-        .specular       = (float)m->specular,
-        .specular_color = (vec3){ (float)m->specular_color[0], (float)m->specular_color[1],
-                                  (float)m->specular_color[2] },
-        .unlit          = m->unlit,
+    const source_material *m = &s->r->source->materials[number];
+    material_textures t      = { .normal_scale = (float)m->normal_scale,
+                                 .cutoff       = (float)fmin(m->cutoff, 2.0) /* above 1 is all */ };
+    if (strcmp(m->alpha_mode, "OPAQUE") != 0)
+        t.alpha = !strcmp(m->alpha_mode, "MASK") ? ALPHA_MASK : ALPHA_BLEND;
+    texture_slot *const slots[SLOT_KINDS] = {
+        [SLOT_BASE]           = &t.base,
+        [SLOT_SURFACE]        = &t.surface,
+        [SLOT_EMISSION]       = &t.emission,
+        [SLOT_TRANSMISSION]   = &t.transmission,
+        [SLOT_SPECULAR]       = &t.specular_weight,
+        [SLOT_SPECULAR_COLOR] = &t.specular_color,
+        [SLOT_NORMAL]         = &t.normal,
     };
-    const vec3 e = out->emission;
-    if (!(isfinite(e.x) && isfinite(e.y) && isfinite(e.z)))
-        return failed(err, ERR_FORMAT, "%s: /materials/%u/emissiveFactor: beyond every number",
-                      w->r->file->path, number);
+    bool some = t.alpha == ALPHA_MASK;
+    for (int k = 0; k < SLOT_KINDS; k++) {
+        if (!slot_read(s, number, (source_slot_kind)k, slots[k], err))
+            return false;
+        some = some || slots[k]->texture;
+    }
+    if (!some)
+        return true;
+    material_textures *copy = arena_new(s->r->a, material_textures, err);
+    if (copy)
+        *copy = t;
+    *out = copy;
+    return copy != NULL;
+}
+
+static void tally_material(reader *r, uint32_t number)
+{
+    const source_material *m = &r->source->materials[number];
+    if (m->occluded)
+        tally_add(r, TALLY_OCCLUSION, "/materials/%u/occlusionTexture", number);
+    if (m->ior > 4.0)
+        tally_add(r, TALLY_IOR, "/materials/%u/extensions/KHR_materials_ior/ior", number);
+    if (m->varies && m->thickness > 0.0)
+        tally_add(r, TALLY_THICKNESS,
+                  "/materials/%u/extensions/KHR_materials_volume/thicknessTexture", number);
+}
+
+static bool read_material(const reader *r, uint32_t number, gltf_material *out, lux_error *err)
+{
+    const source_material *m = &r->source->materials[number];
+    *out                     = (gltf_material){
+                            .name           = read_name(r, m->name, err),
+                            .base_color     = color_of(m->base_color),
+                            .alpha          = strcmp(m->alpha_mode, "OPAQUE") != 0 ? (float)m->base_color[3] : 1.0f,
+                            .metallic       = (float)m->metallic,
+                            .roughness      = (float)m->roughness,
+                            .transmission   = (float)m->transmission,
+                            .specular       = (float)m->specular,
+                            .specular_color = color_of(m->specular_color),
+                            .unlit          = m->unlit,
+    };
+    for (int k = 0; k < 3; k++)
+        if (m->emission[k] * m->strength > (double)FLT_MAX)
+            return failed(err, ERR_FORMAT, "%s: /materials/%u/emissiveFactor: beyond every number",
+                          r->file->path, number);
+    out->emission = color_of((double[3]){
+        m->emission[0] * m->strength, m->emission[1] * m->strength, m->emission[2] * m->strength });
     read_volume(m, out);
-    if (!read_ior(w->r, number, out, err))
-        return false;
-    return out->name != NULL;
+    return out->name && read_ior(r, number, out, err);
+}
+
+/* Of each material, the default one too, whether some triangle in its place is made of it. */
+static const bool *seen_materials(const reader *r, lux_error *err)
+{
+    const gltf *g = r->out;
+    bool *seen    = arena_array(r->file->scratch, bool, (size_t)r->source->material_count + 1, err);
+    bool *placed  = arena_array(r->file->scratch, bool, g->mesh_count, err);
+    if (!seen || !placed)
+        return NULL;
+    for (uint32_t i = 0; i < g->placement_count; i++)
+        placed[g->placements[i].mesh] = true;
+    for (uint32_t i = 0; i < g->mesh_count; i++)
+        for (uint32_t t = 0; placed[i] && t < g->meshes[i].triangles.triangle_count; t++)
+            seen[g->meshes[i].triangles.material[t]] = true;
+    return seen;
 }
 
 bool read_materials(reader *r, lux_error *err)
 {
-    uint32_t count = r->source->material_count;
-    picture_work w = { r, arena_array(r->file->scratch, image_means, r->file->image_count, err) };
+    uint32_t count    = r->source->material_count;
+    const bool *seen  = seen_materials(r, err);
+    texture_shelf s   = { 0 };
     r->out->materials = arena_array(r->a, gltf_material, (size_t)count + 1, err);
-    if (!w.means || !r->out->materials)
+    if (!seen || !r->out->materials || !shelf_open(&s, r, err))
         return false;
-    for (uint32_t i = 0; i < count; i++)
-        if (!read_material(&w, i, &r->out->materials[i], err))
+    for (uint32_t i = 0; i < count; i++) {
+        gltf_material *to = &r->out->materials[i];
+        if (!read_material(r, i, to, err) || (seen[i] && !read_textures(&s, i, &to->textures, err)))
             return false;
+        if (seen[i])
+            tally_material(r, i);
+    }
     /* glTF 2.0.1, section 3.9.6 and the schema's defaults */
     r->out->materials[count] = (gltf_material){ .name                 = "",
                                                 .base_color           = { 1, 1, 1 },

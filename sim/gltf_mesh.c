@@ -21,6 +21,7 @@ typedef struct joined {
 typedef struct mesh_work {
     reader *r;
     joined *joined;
+    corner_data *data;
     uint32_t number; /* of the mesh */
     vec3 *positions;
     uint32_t *corners, *material;
@@ -89,38 +90,56 @@ static bool count_primitive(mesh_work *w, uint32_t number, lux_error *err)
     return true;
 }
 
-static dvec3 corner(const mesh_work *w, uint32_t i) { return d3_from(w->positions[i]); }
-
-static bool is_flat(const mesh_work *w, const uint32_t c[3])
+static bool is_flat(const vec3 at[3])
 {
-    dvec3 a = corner(w, c[0]);
-    dvec3 n = d3_cross(d3_sub(corner(w, c[1]), a), d3_sub(corner(w, c[2]), a));
+    dvec3 a = d3_from(at[0]);
+    dvec3 n = d3_cross(d3_sub(d3_from(at[1]), a), d3_sub(d3_from(at[2]), a));
     return n.x == 0 && n.y == 0 && n.z == 0;
 }
 
-/* Adds the triangles over `count` vertices: those that indices name, or one after the other. */
-static void add_triangles(mesh_work *w, const source_primitive *p, const uint32_t *indices,
-                          uint64_t count)
+/* The vertices of a primitive, in the order of its triangles. */
+typedef struct vertex_list {
+    const uint32_t *indices; /* NULL: one after the other */
+    uint64_t count;
+    vertex_data data;
+} vertex_list;
+
+/* The vertices of triangle i. */
+static void triangle_at(int mode, const vertex_list *l, uint64_t i, uint32_t out[3])
+{
+    uint64_t v[3] = { 3 * i, 3 * i + 1, 3 * i + 2 };
+    if (mode == STRIP)
+        v[0] = i, v[1] = i + 1 + i % 2, v[2] = i + 2 - i % 2;
+    else if (mode == FAN)
+        v[0] = i + 1, v[1] = i + 2, v[2] = 0;
+    for (int k = 0; k < 3; k++)
+        out[k] = l->indices ? l->indices[v[k]] : (uint32_t)v[k];
+}
+
+static bool add_triangles(mesh_work *w, const source_primitive *p, const vertex_list *l,
+                          lux_error *err)
 {
     uint32_t base     = w->joined->base[p->position];
     uint32_t material = p->material >= 0 ? (uint32_t)p->material : w->r->source->material_count;
-    uint64_t many     = triangles_of(p->mode, count);
+    uint64_t many     = triangles_of(p->mode, l->count);
     for (uint64_t i = 0; i < many; i++) {
-        uint64_t v[3] = { 3 * i, 3 * i + 1, 3 * i + 2 };
-        if (p->mode == STRIP)
-            v[0] = i, v[1] = i + 1 + i % 2, v[2] = i + 2 - i % 2;
-        else if (p->mode == FAN)
-            v[0] = i + 1, v[1] = i + 2, v[2] = 0;
-
-        uint32_t *c = &w->corners[3 * (size_t)w->triangle_count];
+        uint32_t v[3];
+        vec3 at[3];
+        triangle_at(p->mode, l, i, v);
         for (int k = 0; k < 3; k++)
-            c[k] = base + (indices ? indices[v[k]] : (uint32_t)v[k]);
-        w->material[w->triangle_count] = material;
-        if (is_flat(w, c))
+            at[k] = w->positions[base + v[k]];
+        if (is_flat(at)) {
             tally_add(w->r, TALLY_FLAT, "/meshes/%u", w->number);
-        else
-            w->triangle_count++;
+            continue;
+        }
+        size_t number = w->triangle_count++;
+        for (size_t k = 0; k < 3; k++)
+            w->corners[3 * number + k] = base + v[k];
+        w->material[number] = material;
+        if (!corner_add(w->data, &l->data, number, v, at, err))
+            return false;
     }
+    return true;
 }
 
 static bool add_primitive(mesh_work *w, uint32_t number, lux_error *err)
@@ -141,22 +160,22 @@ static bool add_primitive(mesh_work *w, uint32_t number, lux_error *err)
         w->position_count += vertices;
     }
 
-    arena own               = { 0 };
-    const uint32_t *indices = NULL;
+    arena own     = { 0 };
+    vertex_list l = { .count = vertex_count(w->r, p) };
     snprintf(pointer, sizeof pointer, "/meshes/%u/primitives/%u/indices", w->number, number);
     if (p->indices >= 0)
-        indices = accessor_indices(w->r, &own, p->indices, vertices, pointer, err);
-    bool good = p->indices < 0 || indices;
-    if (good)
-        add_triangles(w, p, indices, vertex_count(w->r, p));
+        l.indices = accessor_indices(w->r, &own, p->indices, vertices, pointer, err);
+    bool good = (p->indices < 0 || l.indices) && corner_primitive(w->data, number, &l.data, err) &&
+                add_triangles(w, p, &l, err);
     arena_clear(&own);
     return good;
 }
 
-static bool read_mesh(reader *r, joined *j, uint32_t number, gltf_mesh *out, lux_error *err)
+static bool read_mesh(reader *r, joined *j, corner_data *data, uint32_t number, gltf_mesh *out,
+                      lux_error *err)
 {
     const source_mesh *from = &r->source->meshes[number];
-    mesh_work w             = { .r = r, .joined = j, .number = number };
+    mesh_work w             = { .r = r, .joined = j, .data = data, .number = number };
     for (uint32_t i = 0; i < from->primitive_count; i++)
         if (!count_primitive(&w, i, err))
             return false;
@@ -170,6 +189,7 @@ static bool read_mesh(reader *r, joined *j, uint32_t number, gltf_mesh *out, lux
     out->name   = read_name(r, from->name, err);
     if (!w.positions || !w.corners || !w.material || !out->name)
         return false;
+    corner_begin(data, number, w.triangle_count);
     w.position_count = w.triangle_count = 0;
     for (uint32_t i = 0; i < from->primitive_count; i++)
         if (!add_primitive(&w, i, err))
@@ -179,7 +199,9 @@ static bool read_mesh(reader *r, joined *j, uint32_t number, gltf_mesh *out, lux
                              .corners        = w.corners,
                              .material       = w.material,
                              .position_count = w.position_count,
-                             .triangle_count = w.triangle_count };
+                             .triangle_count = w.triangle_count,
+                             .texcoord       = { data->texcoord[0], data->texcoord[1] },
+                             .normals        = data->normals };
     if (!w.triangle_count)
         tally_add(r, TALLY_EMPTY, "/meshes/%u", number);
     return true;
@@ -191,11 +213,14 @@ bool read_meshes(reader *r, lux_error *err)
     joined j       = { arena_array(r->file->scratch, uint32_t, r->source->accessor_count, err),
                        arena_array(r->file->scratch, uint32_t, r->source->accessor_count, err) };
     r->out->meshes = arena_array(r->a, gltf_mesh, count, err);
-    if (!j.base || !j.used_in || !r->out->meshes)
+    corner_data data;
+    if (!j.base || !j.used_in || !r->out->meshes || !corner_open(&data, r, err))
         return false;
-    for (uint32_t i = 0; i < count; i++)
-        if (!read_mesh(r, &j, i, &r->out->meshes[i], err))
-            return false;
+    bool good = true;
+    for (uint32_t i = 0; good && i < count; i++) {
+        good = read_mesh(r, &j, &data, i, &r->out->meshes[i], err);
+        corner_end(&data);
+    }
     r->out->mesh_count = count;
-    return true;
+    return good;
 }

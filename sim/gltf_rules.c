@@ -35,6 +35,7 @@ enum {
 #define NARROW      .narrow = true
 #define UP_TO_INT   .low = 0, .high = 2e9
 #define ABOVE_0_INT .low = DBL_MIN, .high = 2e9
+#define FAR         .low = -1e9, .high = 1e9
 #define COLOR       OF_3, .low = 0, .high = 1e6
 /* clang-format off */
 #define OBJECT(name, rules)  { name, JSON_OBJECT, rules }
@@ -106,13 +107,29 @@ static const json_rule mesh_rules[] = { NAME,
                                         { "extensions", JSON_OBJECT },
                                         END };
 
-static const json_rule texture_info[] = {
-    { "index", JSON_INDEX, MUST }, INDEX("texCoord"), { "extensions", JSON_OBJECT }, END
-};
-static const json_rule webp[]        = { INDEX("source"), END };
-static const json_rule texture_ext[] = { OBJECT("EXT_texture_webp", webp), END };
-static const json_rule texture[]     = { INDEX("source"), INDEX("sampler"), NAME,
-                                         OBJECT("extensions", texture_ext), END };
+static const json_rule transform_rules[]  = { { "offset", JSON_NUMBERS, .length = 2, FAR },
+                                              { "rotation", JSON_NUMBER, FAR },
+                                              { "scale", JSON_NUMBERS, .length = 2, FAR },
+                                              INDEX("texCoord"),
+                                              END };
+static const json_rule texture_info_ext[] = { OBJECT("KHR_texture_transform", transform_rules),
+                                              END };
+static const json_rule texture_info[]     = { { "index", JSON_INDEX, MUST },
+                                              INDEX("texCoord"),
+                                              { "scale", JSON_NUMBER, FAR }, /* of normalTexture */
+                                              OBJECT("extensions", texture_info_ext),
+                                              END };
+static const json_rule webp[]             = { INDEX("source"), END };
+static const json_rule texture_ext[]      = { OBJECT("EXT_texture_webp", webp), END };
+static const json_rule texture[]          = { INDEX("source"), INDEX("sampler"), NAME,
+                                              OBJECT("extensions", texture_ext), END };
+static const json_rule sampler[] = { { "magFilter", JSON_INDEX, .low = 9728, .high = 9729 },
+                                     { "minFilter", JSON_INDEX, .low = 9728, .high = 9987 },
+                                     INDEX("wrapS"),
+                                     INDEX("wrapT"),
+                                     NAME,
+                                     { "extensions", JSON_OBJECT },
+                                     END };
 
 static const json_rule surface[]      = { { "baseColorFactor", JSON_NUMBERS, .length = 4, UP_TO_1 },
                                           OBJECT("baseColorTexture", texture_info),
@@ -263,7 +280,7 @@ static const json_rule root[]  = {
      OBJECT("extensions", extension),
      { "animations", JSON_OBJECTS, .hide = true, .note = NOTE_ANIMATION },
      { "skins", JSON_OBJECTS, .hide = true, .note = NOTE_SKIN },
-     { "samplers", JSON_OBJECTS, .hide = true },
+     OBJECTS("samplers", sampler),
      END
 };
 

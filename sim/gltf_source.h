@@ -5,11 +5,12 @@
  *     gltf_rules.c      the JSON against glTF's schema (gltf_json.c)
  *     gltf_tinygltf.cpp the JSON as structures: only this file knows the library
  *     gltf_access.c     accessors: buffer views, strides, sparse and normalised numbers
- *     gltf_mesh.c       triangles          gltf_material.c  materials, mean colours of pictures
+ *     gltf_mesh.c       triangles          gltf_corner.c    their coordinates and normals
+ *     gltf_material.c   materials          gltf_texture.c   their pictures
  *     gltf_node.c       places             gltf_light.c     lights
  *     gltf.c            all of it in order, gltf_read()
  *
- * The library sees JSON alone: buffers, images, samplers, animations, skins and the indices of
+ * The library sees JSON alone: buffers, images, animations, skins and the indices of
  * primitives are hidden from it, so that it opens no file, decodes nothing and refuses nothing
  * that is no fault. Types and ranges of single values have been checked when a
  * `source` is made; indices and sizes have not: who uses one, checks it.
@@ -73,7 +74,7 @@ typedef struct source_accessor {
 
 typedef struct source_primitive {
     int mode;
-    source_index position, indices, material;
+    source_index position, normal, texcoord[2], indices, material;
     bool colored, morphed; /* has COLOR_0, has targets */
 } source_primitive;
 
@@ -99,13 +100,39 @@ typedef struct source_node {
     source_index instance_move, instance_turn, instance_scale;
 } source_node;
 
+typedef struct source_sampler {
+    int magnify, wrap_u, wrap_v; /* glTF's numbers; magnify -1: not said */
+} source_sampler;
+
+typedef struct source_texture {
+    source_index image, webp, sampler; /* webp: the image of EXT_texture_webp */
+} source_texture;
+
+/* Where materials may have a texture. */
+typedef enum source_slot_kind {
+    SLOT_BASE,
+    SLOT_SURFACE,
+    SLOT_EMISSION,
+    SLOT_TRANSMISSION,
+    SLOT_SPECULAR,
+    SLOT_SPECULAR_COLOR,
+    SLOT_NORMAL,
+    SLOT_KINDS
+} source_slot_kind;
+
+/* A texture in use, with its KHR_texture_transform: what texCoord says there is in set. */
+typedef struct source_slot {
+    source_index texture, set;
+    double offset[2], rotation, scale[2]; /* rotation: rad */
+} source_slot;
+
 typedef struct source_material {
     const char *name, *alpha_mode;
     double base_color[4], emission[3], specular_color[3], attenuation_color[3];
-    double metallic, roughness, strength, transmission, ior, specular;
+    double metallic, roughness, strength, transmission, ior, specular, cutoff, normal_scale;
     double thickness, attenuation_distance; /* m; infinite if it is not said */
-    source_index base_texture, surface_texture, emission_texture, transmission_texture;
-    bool unlit;
+    source_slot slots[SLOT_KINDS];
+    bool unlit, occluded, varies; /* has an occlusionTexture, a thicknessTexture */
 } source_material;
 
 typedef struct source_camera {
@@ -141,12 +168,13 @@ typedef struct source {
     const source_light *lights; /* KHR_lights_punctual */
     const source_area *areas;
     const source_scene *scenes;
-    const source_index *textures;  /* the image of each */
+    const source_texture *textures;
+    const source_sampler *samplers;
     const char **used, **required; /* extensions */
     const char **profile_names;    /* of gltf_file.profiles */
     uint32_t view_count, accessor_count, mesh_count, node_count, material_count, camera_count,
-        light_count, area_count, scene_count, texture_count, used_count, required_count,
-        profile_name_count;
+        light_count, area_count, scene_count, texture_count, sampler_count, used_count,
+        required_count, profile_name_count;
     source_index scene;
     const char *version, *least_version; /* of glTF: asset.version, asset.minVersion */
     void *model; /* the library's; texts and lists above may point into it */
@@ -180,8 +208,12 @@ typedef enum tally_kind {
     TALLY_FLAT,
     TALLY_SINGULAR,
     TALLY_RANGE,
-    TALLY_TEXTURE,
     TALLY_NO_PICTURE,
+    TALLY_WEBP,
+    TALLY_OCCLUSION,
+    TALLY_THICKNESS,
+    TALLY_NO_TEXCOORD,
+    TALLY_NORMAL,
     TALLY_COLOR,
     TALLY_MORPH,
     TALLY_SKIN,
@@ -204,8 +236,10 @@ typedef struct reader {
     gltf *out;
     gltf_light *lights[LIGHT_LISTS]; /* of each list, as any node will have them */
     uint32_t light_count[LIGHT_LISTS];
-    size_t embedded;                      /* bytes of photometric files so far */
-    uint64_t triangles, positions, zeros; /* so far; zeros: positions without bytes in the file */
+    size_t embedded;               /* bytes of photometric files so far */
+    uint64_t triangles, positions; /* so far; positions: and what else vertices have */
+    uint64_t zeros;                /* of those, the ones without bytes in the file */
+    uint64_t texels;               /* of all textures so far */
     tally tallies[TALLY_KINDS];
 } reader;
 
@@ -237,15 +271,71 @@ const double *accessor_numbers(const reader *r, arena *into, source_index access
 bool accessor_positions(const reader *r, source_index accessor, vec3 *out, const char *pointer,
                         lux_error *err);
 
+/* What `count` vertices have besides: `width` numbers each, floats or quantised, of any value. */
+const float *accessor_attribute(const reader *r, arena *into, source_index accessor, int width,
+                                size_t count, const char *pointer, lux_error *err);
+
 /* Integers, each below `limit`, in `into`. */
 const uint32_t *accessor_indices(const reader *r, arena *into, source_index accessor,
                                  uint32_t limit, const char *pointer, lux_error *err);
 
 /* Each makes its part of r->out. */
 bool read_meshes(reader *r, lux_error *err);
-bool read_materials(reader *r, lux_error *err);
-bool read_lights(reader *r, lux_error *err); /* r->lights; after accessors_check() */
-bool read_nodes(reader *r, lux_error *err);  /* after meshes and lights; cameras too */
+bool read_lights(reader *r, lux_error *err);    /* r->lights; after accessors_check() */
+bool read_nodes(reader *r, lux_error *err);     /* after meshes and lights; cameras too */
+bool read_materials(reader *r, lux_error *err); /* after nodes: unseen ones get no textures */
+
+/* ---- textures (gltf_texture.c) --------------------------------------------------------------- */
+
+struct texture_slot; /* materials/look.h */
+
+/* Whether some texture of the material (-1: none) goes by TEXCOORD_<set>. */
+bool slots_use_set(const reader *r, source_index material, int set);
+
+/* The textures that have been made so far. */
+typedef struct texture_shelf {
+    reader *r;
+    struct shelved **of_image; /* of each image of the file */
+    bool *no_webp;             /* of each texture: its picture in WebP cannot be read */
+} texture_shelf;
+
+/* That all that the file says of textures leads somewhere. */
+bool textures_check(const reader *r, lux_error *err);
+
+bool shelf_open(texture_shelf *s, reader *r, lux_error *err);
+
+/* Fills in *to: {0} where there is no texture, or none that matters. */
+bool slot_read(texture_shelf *s, uint32_t material, source_slot_kind kind, struct texture_slot *to,
+               lux_error *err);
+
+/* ---- what corners of triangles have besides a place (gltf_corner.c) -------------------------- */
+
+/* Of one mesh after the other. */
+typedef struct corner_data {
+    reader *r;
+    const float **values; /* of an accessor: what was read */
+    uint32_t *read_in;    /* of an accessor: 1 + the mesh that it was last read for */
+    uint32_t mesh;
+    size_t triangles; /* that the mesh may have */
+    arena own;        /* of values */
+    float *texcoord[2];
+    vec3 *normals; /* both as in core/mesh.h: NULL until there are some */
+} corner_data;
+
+/* Of a primitive; NULL: it has none that is wanted. */
+typedef struct vertex_data {
+    const float *texcoord[2], *normals;
+} vertex_data;
+
+bool corner_open(corner_data *c, reader *r, lux_error *err);
+void corner_begin(corner_data *c, uint32_t number, size_t triangles);
+bool corner_primitive(corner_data *c, uint32_t number, vertex_data *out, lux_error *err);
+
+/* Of the triangle with that number in the mesh, whose corners are those vertices of its primitive
+ * and stand at `at`. */
+bool corner_add(corner_data *c, const vertex_data *d, size_t triangle, const uint32_t vertex[3],
+                const vec3 at[3], lux_error *err);
+void corner_end(corner_data *c);
 
 /* The lights of node i of the file: their number; whether they are there; they themselves, at
  * `place`, put into r->out for its node `number`. */

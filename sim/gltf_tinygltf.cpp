@@ -95,11 +95,14 @@ void convert(const tinygltf::Accessor &from, source_accessor &to)
 
 void convert(const tinygltf::Primitive &from, source_primitive &to)
 {
-    to.mode     = from.mode;
-    to.position = attribute(from, "POSITION");
-    to.material = from.material;
-    to.colored  = attribute(from, "COLOR_0") >= 0;
-    to.morphed  = !from.targets.empty();
+    to.mode        = from.mode;
+    to.position    = attribute(from, "POSITION");
+    to.normal      = attribute(from, "NORMAL");
+    to.texcoord[0] = attribute(from, "TEXCOORD_0");
+    to.texcoord[1] = attribute(from, "TEXCOORD_1");
+    to.material    = from.material;
+    to.colored     = attribute(from, "COLOR_0") >= 0;
+    to.morphed     = !from.targets.empty();
 }
 
 void convert(const tinygltf::Node &from, source_node &to)
@@ -131,6 +134,36 @@ void convert(const tinygltf::Node &from, source_node &to)
     copy(from.scale, to.scale);
 }
 
+void pair_in(const Value *object, const char *key, double otherwise, double (&to)[2])
+{
+    const Value *v = member(object, key);
+    for (size_t i = 0; i < 2; i++)
+        to[i] = v && v->ArrayLen() == 2 ? v->Get(int(i)).GetNumberAsDouble() : otherwise;
+}
+
+source_slot slot(source_index texture, source_index set, const Value *moved)
+{
+    source_slot to = { texture, set, {}, number_in(moved, "rotation", 0.0), {} };
+    if (member(moved, "texCoord"))
+        to.set = index_in(moved, "texCoord");
+    pair_in(moved, "offset", 0.0, to.offset);
+    pair_in(moved, "scale", 1.0, to.scale);
+    return to;
+}
+
+// Of a texture that the core names, and of one within an extension.
+template <class Info> source_slot slot(const Info &from)
+{
+    return slot(from.index, from.texCoord, find(from.extensions, "KHR_texture_transform"));
+}
+
+source_slot slot(const Value *from)
+{
+    const Value *set = member(from, "texCoord");
+    return slot(index_in(from, "index"), set ? index_in(from, "texCoord") : 0,
+                member(member(from, "extensions"), "KHR_texture_transform"));
+}
+
 void convert(const tinygltf::Material &from, source_material &to)
 {
     const auto &surface = from.pbrMetallicRoughness;
@@ -139,16 +172,23 @@ void convert(const tinygltf::Material &from, source_material &to)
     const Value *gloss  = find(from.extensions, "KHR_materials_specular");
     const Value *volume = find(from.extensions, "KHR_materials_volume");
 
-    to.name                 = from.name.c_str();
-    to.alpha_mode           = from.alphaMode.c_str();
-    to.metallic             = surface.metallicFactor;
-    to.roughness            = surface.roughnessFactor;
-    to.strength             = number_in(glow, "emissiveStrength", 1.0);
-    to.transmission         = number_in(clear, "transmissionFactor", 0.0);
-    to.base_texture         = surface.baseColorTexture.index;
-    to.surface_texture      = surface.metallicRoughnessTexture.index;
-    to.emission_texture     = from.emissiveTexture.index;
-    to.transmission_texture = index_in(member(clear, "transmissionTexture"), "index");
+    to.name                       = from.name.c_str();
+    to.alpha_mode                 = from.alphaMode.c_str();
+    to.metallic                   = surface.metallicFactor;
+    to.roughness                  = surface.roughnessFactor;
+    to.strength                   = number_in(glow, "emissiveStrength", 1.0);
+    to.transmission               = number_in(clear, "transmissionFactor", 0.0);
+    to.cutoff                     = from.alphaCutoff;
+    to.normal_scale               = from.normalTexture.scale;
+    to.occluded                   = from.occlusionTexture.index >= 0;
+    to.varies                     = member(volume, "thicknessTexture") != nullptr;
+    to.slots[SLOT_BASE]           = slot(surface.baseColorTexture);
+    to.slots[SLOT_SURFACE]        = slot(surface.metallicRoughnessTexture);
+    to.slots[SLOT_EMISSION]       = slot(from.emissiveTexture);
+    to.slots[SLOT_NORMAL]         = slot(from.normalTexture);
+    to.slots[SLOT_TRANSMISSION]   = slot(member(clear, "transmissionTexture"));
+    to.slots[SLOT_SPECULAR]       = slot(member(gloss, "specularTexture"));
+    to.slots[SLOT_SPECULAR_COLOR] = slot(member(gloss, "specularColorTexture"));
     to.ior                  = number_in(find(from.extensions, "KHR_materials_ior"), "ior", 1.5);
     to.specular             = number_in(gloss, "specularFactor", 1.0);
     to.thickness            = number_in(volume, "thicknessFactor", 0.0);
@@ -204,10 +244,15 @@ void convert(const tinygltf::Scene &from, source_scene &to)
     to = { from.nodes.data(), uint32_t(from.nodes.size()) };
 }
 
-void convert(const tinygltf::Texture &from, source_index &to)
+void convert(const tinygltf::Texture &from, source_texture &to)
 {
-    to = from.source >= 0 ? from.source
-                          : index_in(find(from.extensions, "EXT_texture_webp"), "source");
+    to = { from.source, index_in(find(from.extensions, "EXT_texture_webp"), "source"),
+           from.sampler };
+}
+
+void convert(const tinygltf::Sampler &from, source_sampler &to)
+{
+    to = { from.magFilter, from.wrapS, from.wrapT };
 }
 
 void convert(const std::string &from, const char *&to) { to = from.c_str(); }
@@ -267,7 +312,8 @@ void convert_model(const gltf_file *f, const tinygltf::Model &m, source *s)
     s->profile_names =
         convert_all<Value, const char *>(a, lights_of(m, "EXT_lights_ies"), s->profile_name_count);
     s->scenes   = convert_all<Scene, source_scene>(a, m.scenes, s->scene_count);
-    s->textures = convert_all<Texture, source_index>(a, m.textures, s->texture_count);
+    s->textures = convert_all<Texture, source_texture>(a, m.textures, s->texture_count);
+    s->samplers = convert_all<Sampler, source_sampler>(a, m.samplers, s->sampler_count);
     s->used     = convert_all<std::string, const char *>(a, m.extensionsUsed, s->used_count);
     s->required =
         convert_all<std::string, const char *>(a, m.extensionsRequired, s->required_count);

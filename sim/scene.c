@@ -72,22 +72,32 @@ static bool build_cameras(scene_build *b)
 
 static bool is_dark(vec3 c) { return c.x == 0.0f && c.y == 0.0f && c.z == 0.0f; }
 
-static void say_what_surfaces_do(const scene_build *b, scene *s)
+static int32_t deeds_of(const material *m)
 {
-    for (int i = 0; i < s->material_count; i++) {
+    return (m->type->reflect ? DOES_ASK : 0) | (m->matt ? 0 : DOES_NARROW) |
+           (m->two_sided ? DOES_AROUND : 0) | (m->solid ? DOES_SOLID : 0);
+}
+
+static bool say_what_surfaces_do(const scene_build *b, scene *s)
+{
+    int32_t *does = arena_array(b->a, int32_t, (size_t)s->material_count + 1, b->err);
+    for (int i = 0; does && i < s->material_count; i++) {
         const scene_material *m = &s->material_info[i];
+        does[i]                 = deeds_of(s->materials[i]);
         if (!m->used)
             continue;
-        s->reflects |= !is_dark(m->reflectance);
+        s->reflects |= !is_dark(m->reflectance) || !is_dark(m->transmittance);
         s->glows |= !is_dark(m->emission);
         s->textured |= m->textured;
         s->hollow |= material_is_hollow(s->materials[i]);
         s->narrow |= !s->materials[i]->matt;
         s->solids |= s->materials[i]->solid;
     }
+    s->material_does = does;
     if (s->light_count == 0 && !s->glows)
         notice_add(b->notices, "%s: nothing gives light: every result will be 0 lx",
                    b->study->path);
+    return does != NULL;
 }
 
 /* Lamps and glowing triangles in one list, and what chooses among them. */
@@ -230,10 +240,8 @@ const scene *scene_new(arena *a, const study *from, const scene_options *o, noti
     s->lights_differ  = b.lights_differ;
     s->camera_count   = (int)b.cameras.count;
     s->cameras        = b.cameras.items;
-    if (!join_lights(&b, s))
-        return NULL;
-    say_what_surfaces_do(&b, s);
-    if (!take_groups(&b, s) || !make_sets(&b, s))
+    if (!join_lights(&b, s) || !say_what_surfaces_do(&b, s) || !take_groups(&b, s) ||
+        !make_sets(&b, s))
         return NULL;
     find_clear_lights(&b, s);
     s->light_info = b.light_info.items;

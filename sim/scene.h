@@ -19,6 +19,8 @@ typedef struct scene_material {
     const char *name;     /* "room: walls" for those of the room */
     const char *kind;     /* material_type.name */
     const char *file;     /* of a measured table; NULL */
+    double reciprocity;   /* of a table: mean of |f(a, b) - f(b, a)| by f; else 0 */
+    double scaled_by;     /* of a table: (0, 1], so that it gives back no more than it gets */
     vec3 reflectance;     /* of diffuse light, on the front side */
     vec3 transmittance;   /* of diffuse light, straight and scattered */
     vec3 emission;        /* cd/m^2 */
@@ -109,15 +111,10 @@ typedef struct scene {
     bool solids;                  /* some of those are solids that refract, */
     bool narrow;                  /* some are not matt: rays find lamps by way of them */
 
-    bool reflects;     /* some surface does */
+    bool reflects;     /* light goes on from some surface, to either side */
     bool glows;        /* some surface emits light */
     double glow_watts; /* W, not dimmed, of glowing surfaces that are no emitters: they have
                           textures of emission or alpha, and only rays find them */
-    bool textured;     /* some surface has textures */
-    bool smooth;       /* some mesh has normals of its own */
-    bool hollow;       /* some surface lets light go straight through */
-    bool narrow;       /* some surface is not matt */
-    bool solids;       /* some surface is the border of a solid that refracts */
     uint64_t texture_bytes;
     int small_patches; /* lamps that light a patch too small for samples to find reliably */
 } scene;

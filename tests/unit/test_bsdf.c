@@ -239,12 +239,12 @@ static void same_transmission(const bsdf *b, const bsdf *c, double tolerance)
                 double p[3], q[3];
                 twin_middle(&twin_quarter, i, p);
                 twin_middle(&twin_quarter, j, q);
-                vvec3 in  = vspread((vec3){ (float)p[0], (float)p[1], (float)p[2] });
-                vvec3 out = vspread((vec3){ (float)q[0], (float)q[1], (float)q[2] });
-                vfloat x =
-                    vbsdf_value(b, (bsdf_side_name)side, BSDF_TRANSMIT, &in, &out, ALL_LANES);
-                vfloat y =
-                    vbsdf_value(c, (bsdf_side_name)side, BSDF_TRANSMIT, &in, &out, ALL_LANES);
+                vvec3 in          = vspread((vec3){ (float)p[0], (float)p[1], (float)p[2] });
+                vvec3 out         = vspread((vec3){ (float)q[0], (float)q[1], (float)q[2] });
+                vbsdf_place at    = vbsdf_find(b, &in, &out);
+                bsdf_side_name of = (bsdf_side_name)side;
+                vfloat x          = vbsdf_value(b, of, BSDF_TRANSMIT, &at, ALL_LANES);
+                vfloat y          = vbsdf_value(c, of, BSDF_TRANSMIT, &at, ALL_LANES);
                 assert_near(lane(x, 0), (double)lane(y, 0), tolerance);
             }
 }

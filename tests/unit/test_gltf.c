@@ -352,35 +352,6 @@ TEST(materials_are_read_with_their_defaults)
     assert_vec(m->emission, 200, 100, 0);
 }
 
-/* One pixel, 8-bit RGB (188, 0, 255), as PNG. Linear by IEC 61966-2-1: 0.50289, 0, 1. */
-static const char pixel[] =
-    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGPYw/AfAAM3AbykcnaaAAAA"
-    "AElFTkSuQmCC";
-
-TEST(a_texture_counts_as_its_mean_colour)
-{
-    const gltf *g = read_text(
-        text_of(&memory,
-                "{" ASSET
-                ",\"scenes\":[{}],\"images\":[{\"uri\":\"data:image/png;base64,%s\"}],\"textures\":"
-                "[{\"source\":0}],\"materials\":[{\"emissiveFactor\":[1,1,1],\"emissiveTexture\":{"
-                "\"index\":0},"
-                "\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,1,0.5,1],\"baseColorTexture\":{"
-                "\"index\":0},"
-                "\"metallicRoughnessTexture\":{\"index\":0}}}]}",
-                pixel));
-    assert_non_null(g);
-    const gltf_material *m = &g->materials[0];
-    assert_near(m->base_color.x, 0.5 * 0.50289, 1e-4);
-    assert_near(m->base_color.y, 0, 1e-6);
-    assert_near(m->base_color.z, 0.5, 1e-6);
-    assert_near(m->emission.x, 0.50289, 1e-4);
-    assert_near(m->emission.z, 1, 1e-6);
-    assert_near(m->metallic, 1, 1e-6);  /* blue */
-    assert_near(m->roughness, 0, 1e-6); /* green */
-    assert_true(noticed(&said, "3 textures are read as their average colour"));
-}
-
 TEST(a_binary_file_and_its_text_twin_are_the_same)
 {
     static const char json[] =
@@ -499,7 +470,6 @@ int main(void)
         GLTF_TEST(cameras_look_where_their_node_points),
         GLTF_TEST(punctual_lights_keep_their_candelas_whatever_the_scale),
         GLTF_TEST(materials_are_read_with_their_defaults),
-        GLTF_TEST(a_texture_counts_as_its_mean_colour),
         GLTF_TEST(a_binary_file_and_its_text_twin_are_the_same),
         GLTF_TEST(a_buffer_file_is_found_by_its_decoded_name),
         GLTF_TEST(the_scene_that_is_asked_for_is_shown),

@@ -10,6 +10,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+/* One pixel as PNG. */
+#define PIXEL                                                                                      \
+    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGPYw/AfAAM3AbykcnaaAAAA"             \
+    "AElFTkSuQmCC"
+
 #define ASSET "\"asset\":{\"version\":\"2.0\"}"
 
 static int forget(void **state)
@@ -112,16 +117,25 @@ static char *whole_scene(arena *a, bool binary)
         "1,"
         "\"componentType\":5123,\"count\":6,\"type\":\"SCALAR\"},{\"bufferView\":4,"
         "\"componentType\":5126,"
-        "\"count\":2,\"type\":\"VEC3\"}],\"meshes\":[{\"name\":\"m\",\"primitives\":[{"
+        "\"count\":2,\"type\":\"VEC3\"},{\"bufferView\":1,\"componentType\":5121,\"count\":4,"
+        "\"type\":\"VEC2\",\"normalized\":true}],\"meshes\":[{\"name\":\"m\",\"primitives\":[{"
         "\"attributes\":{"
-        "\"POSITION\":0},\"indices\":1,\"material\":0,\"mode\":4}]}],\"materials\":[{\"name\":"
+        "\"POSITION\":0,\"NORMAL\":0,\"TEXCOORD_0\":3},\"indices\":1,\"material\":0,\"mode\":4}]}],"
+        "\"materials\":[{\"name\":"
         "\"x\","
         "\"emissiveFactor\":[0,0,1],\"alphaMode\":\"OPAQUE\",\"pbrMetallicRoughness\":{"
         "\"baseColorFactor\":"
         "[0,0,0,1],\"metallicFactor\":0,\"roughnessFactor\":1},\"extensions\":{"
         "\"KHR_materials_emissive_strength\":{\"emissiveStrength\":2},\"KHR_materials_"
         "transmission\":{"
-        "\"transmissionFactor\":0}}}],\"cameras\":[{\"type\":\"perspective\",\"perspective\":{"
+        "\"transmissionFactor\":0},\"KHR_materials_ior\":{\"ior\":1.5},\"KHR_materials_specular\":"
+        "{\"specularFactor\":1,\"specularColorFactor\":[1,1,1],\"specularTexture\":{\"index\":"
+        "0}},\"KHR_materials_volume\":{\"thicknessFactor\":0,\"attenuationDistance\":1,"
+        "\"attenuationColor\":[1,1,1]}},\"normalTexture\":{\"index\":0,\"texCoord\":0,\"scale\":"
+        "1,\"extensions\":{\"KHR_texture_transform\":{\"offset\":[0,0],\"rotation\":0,\"scale\":"
+        "[1,1],\"texCoord\":0}}}}],\"textures\":[{\"source\":0,\"sampler\":0}],\"samplers\":[{"
+        "\"magFilter\":9729,\"wrapS\":10497}],\"images\":[{\"uri\":\"data:image/png;base64," PIXEL
+        "\"}],\"cameras\":[{\"type\":\"perspective\",\"perspective\":{"
         "\"yfov\":1,"
         "\"znear\":1,\"aspectRatio\":1}},{\"type\":\"orthographic\",\"orthographic\":{\"xmag\":1,"
         "\"ymag\":1,"
@@ -268,9 +282,9 @@ static void assert_change_refused(const char *from, const char *to, const char *
 TEST(an_error_names_the_pointer_and_what_is_wrong)
 {
     assert_change_refused("\"POSITION\":0", "\"POSITION\":7",
-                          "/meshes/0/primitives/0/attributes/POSITION: accessor 7 of 3");
+                          "/meshes/0/primitives/0/attributes/POSITION: accessor 7 of 4");
     assert_change_refused("\"indices\":1", "\"indices\":77",
-                          "/meshes/0/primitives/0/indices: accessor 77 of 3");
+                          "/meshes/0/primitives/0/indices: accessor 77 of 4");
     assert_change_refused("\"material\":0", "\"material\":1",
                           "/meshes/0/primitives/0/material: material 1 of 1");
     assert_change_refused("\"mesh\":0", "\"mesh\":1", "/nodes/1/mesh: mesh 1 of 1");
@@ -425,18 +439,24 @@ TEST(a_picture_that_is_not_there_is_named)
 {
     static const char scene[] =
         "{" ASSET ",\"images\":[%s],\"textures\":[{\"source\":%d}],\"materials\":"
-        "[{\"emissiveTexture\":{\"index\":%d}}]}";
-    arena a = { 0 };
-    assert_text_refused(text_of(&a, scene, "{\"uri\":\"none.png\"}", 0, 0), "/images/0/uri: ");
-    assert_text_refused(text_of(&a, scene, "{\"uri\":\"../none.png\"}", 0, 0),
+        "[{\"normalTexture\":{\"index\":%d}}],\"nodes\":[{\"mesh\":0}],\"meshes\":[{"
+        "\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":0}]}],\"buffers\":[{"
+        "\"byteLength\":36,\"uri\":\"%s\"}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":"
+        "\"VEC3\"}]}";
+    static const float triangle[9] = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };
+    arena a                        = { 0 };
+    const char *uri                = data_uri(&a, triangle, sizeof triangle);
+    assert_text_refused(text_of(&a, scene, "{\"uri\":\"none.png\"}", 0, 0, uri), "/images/0/uri: ");
+    assert_text_refused(text_of(&a, scene, "{\"uri\":\"../none.png\"}", 0, 0, uri),
                         "/images/0/uri: \"../none");
-    assert_text_refused(text_of(&a, scene, "{\"uri\":\"data:image/png;base64,AAAA\"}", 0, 0),
+    assert_text_refused(text_of(&a, scene, "{\"uri\":\"data:image/png;base64,AAAA\"}", 0, 0, uri),
                         "/images/0/uri: ");
-    assert_text_refused(text_of(&a, scene, "{\"bufferView\":3}", 0, 0),
-                        "/images/0/bufferView: bufferView 3 of 0");
-    assert_text_refused(text_of(&a, scene, "{}", 1, 0), "/textures/0/source: image 1 of 1");
-    assert_text_refused(text_of(&a, scene, "{}", 0, 2),
-                        "/materials/0/emissiveTexture/index: texture 2 of 1");
+    assert_text_refused(text_of(&a, scene, "{\"bufferView\":3}", 0, 0, uri),
+                        "/images/0/bufferView: bufferView 3 of 1");
+    assert_text_refused(text_of(&a, scene, "{}", 1, 0, uri), "/textures/0/source: image 1 of 1");
+    assert_text_refused(text_of(&a, scene, "{}", 0, 2, uri),
+                        "/materials/0/normalTexture/index: texture 2 of 1");
     arena_clear(&a);
 }
 

@@ -246,7 +246,7 @@ static double most_exchanged(const bsdf *b)
 /* ---- figures -----------------------------------------------------------------------------------
  */
 
-enum { PROBES = 12 }; /* along each axis of the square: 144 directions, 62,000 pairs */
+enum { PROBES = 8 }; /* along each axis of the square: 64 directions, 4,096 pairs */
 
 static vvec3 probe(int i)
 {

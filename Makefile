@@ -75,7 +75,7 @@ MAKEFLAGS += --no-builtin-rules --no-print-directory
 Q         := $(if $V,,@)
 .DELETE_ON_ERROR:
 .SECONDARY:
-.PHONY: all check check-long tests demo bench bench-lights bench-hall bench-programs bench-deps deps fuzz fuzzers install layers \
+.PHONY: all check check-long tests demo bench bench-lights bench-brdf bench-hall bench-programs bench-deps deps fuzz fuzzers install layers \
         format format-check clean help FORCE
 
 ## all: the library and the program (what plain `make` does)
@@ -106,6 +106,11 @@ $B/make_office: $(OFFICE) $B/links
 	@echo "LD   $@"
 	$Q$(CXX) $(SANS) $(OFFICE) -lm -o $@
 
+# The program that makes the tables of reflection in data/materials
+$B/make_brdf: data/materials/make_brdf.c $B/flags
+	@mkdir -p $(@D); echo "LD   $@"
+	$Q$(CC) $(CPPFLAGS) $(CFLAGS) $< -lm -o $@
+
 build/bench/office-%.glb: $B/make_office
 	@mkdir -p $(@D); $< --bench $* $@
 
@@ -113,13 +118,16 @@ $(PLUG): $(SHIM) $B/flags
 	@mkdir -p $(@D); echo "SO   $@"
 	$Q$(CXX) $(CPPFLAGS) $(PLUGIN_CFLAGS) $(CXXFLAGS) -fPIC -shared $(LDFLAGS) $< $(PLUGIN_LIBS) -o $@
 
-# The lights as plain scalar C, once with the arithmetic of the x87
-PLAIN_LIGHTS := $B/tests/bench/plain_lights.o $B/tests/bench/plain_lights_387.o
-$B/tests/bench/bench_lights: $(PLAIN_LIGHTS)
-$B/tests/bench/plain_lights_387.o: private X87 := -mfpmath=387 -DPLAIN_387
-$(PLAIN_LIGHTS): tests/bench/plain_lights.c $B/flags
-	@mkdir -p $(@D); echo "CC   $< $(X87)"
-	$Q$(CC) $(CPPFLAGS) $(CFLAGS) -fno-tree-vectorize -fno-tree-slp-vectorize $(X87) -c $< -o $@
+# What packets are measured against: plain scalar C, once with the arithmetic of the x87
+PLAIN := $(patsubst %.c,$B/%,$(wildcard tests/bench/plain_*.c))
+$(PLAIN:$B/tests/bench/plain_%=$B/tests/bench/bench_%): $B/tests/bench/bench_%: $B/tests/bench/plain_%.o $B/tests/bench/plain_%_387.o
+$(PLAIN:=_387.o): private X87 := -mfpmath=387 -DPLAIN_387
+PLAIN_CC = mkdir -p $(@D); echo "CC   $< $(X87)"; \
+	$(CC) $(CPPFLAGS) $(CFLAGS) -fno-tree-vectorize -fno-tree-slp-vectorize $(X87) -c $< -o $@
+$(PLAIN:=.o): $B/%.o: %.c $B/flags
+	@$(PLAIN_CC)
+$(PLAIN:=_387.o): $B/%_387.o: %.c $B/flags
+	@$(PLAIN_CC)
 
 $B/%.c.o: %.c $B/flags
 	@mkdir -p $(@D); echo "CC   $<"
@@ -136,7 +144,7 @@ $B/flags $B/links: FORCE
 	@mkdir -p $(@D); echo '$(subst ','\'',$(TELL))' | cmp -s - $@ || echo '$(subst ','\'',$(TELL))' > $@
 
 -include $(patsubst %,$B/%.d,$(SRC:=) $(AIDS) sim/main.c) $(addsuffix .c.d,$(TESTS) $(LONG) $(BENCH) $(FUZZERS))
--include $(PLUG:.so=.d) $(OFFICE:.o=.d) $(PLAIN_LIGHTS:.o=.d)
+-include $(PLUG:.so=.d) $(OFFICE:.o=.d) $(PLAIN:=.d) $(PLAIN:=_387.d)
 
 # What is missing is installed for check and demo, which set a machine up; else it is named.
 build/pkg.mk: Makefile
@@ -184,6 +192,13 @@ bench-lights:
 	$Q$(MAKE) build/$(KIND)-1/tests/bench/bench_lights WIDTH=1
 	@{ echo "# $$(git describe --always --dirty 2>/dev/null) $(CC) $(OPT)"; \
 	  build/$(KIND)-4/tests/bench/bench_lights build/$(KIND)-1/tests/bench/bench_lights; } | tee -a build/bench.log
+
+## bench-brdf: nanoseconds a look-up of a measured BRDF, beside plain C; appended to build/bench.log
+bench-brdf:
+	$Q$(MAKE) build/$(KIND)-4/tests/bench/bench_brdf WIDTH=4
+	$Q$(MAKE) build/$(KIND)-1/tests/bench/bench_brdf WIDTH=1
+	@{ echo "# $$(git describe --always --dirty 2>/dev/null) $(CC) $(OPT)"; \
+	  build/$(KIND)-4/tests/bench/bench_brdf build/$(KIND)-1/tests/bench/bench_brdf; } | tee -a build/bench.log
 
 ## bench-hall: seconds that 1,000 lamps in a hall cost, beside 10; appended to build/bench.log
 bench-hall:

@@ -99,6 +99,10 @@ bool brdf_integrate(brdf *b, arena *a, const char *name, notices *n, lux_error *
  */
 void brdf_half_node(const brdf *b, int node, double *cells, double rgb[3]);
 
+/* Whether an axis is as brdf_data wants it; else false with *err, which `where` begins. */
+bool brdf_check_places(const char *where, brdf_kind kind, int axis, const double *deg, int count,
+                       lux_error *err);
+
 /* The readers. The text ends in a NUL. */
 const brdf *brdf_read_text(arena *a, const char *path, const char *text, size_t size, notices *n,
                            lux_error *err);

@@ -249,9 +249,13 @@ static bool read_place(reader *r, const header *h, float rgb[3])
     double sum[3] = { 0 };
     bool missing  = false;
     for (int i = 0; i < h->bands; i++) {
-        double value;
-        if (!next_word(r, false) || !take_number(r, &value) || !(value <= 1e30))
+        double value     = 0.0;
+        bool more        = next_word(r, false);
+        const char *word = r->at;
+        if (!more || !take_number(r, &value) || value > 1e30) {
+            r->at = word;
             return wrong(r, "a value in 1/sr, below 1e30");
+        }
         missing = missing || value < 0.0;
         for (int c = 0; c < 3; c++)
             sum[c] += h->weights[i][c] * value;

@@ -143,7 +143,7 @@ TEST(no_mutation_of_a_file_is_misread)
         memcpy(text, good, sizeof good);
         for (int k = 0; k < 1 + i % 3; k++) {
             seed                                  = seed * 1664525u + 1013904223u;
-            text[(seed >> 8) % (sizeof good - 1)] = (char)"0159.-e \n#R_\377"[seed >> 28];
+            text[(seed >> 8) % (sizeof good - 1)] = (char)"01592.-+e \n#R_\377"[seed >> 28];
         }
         const brdf *b = read_text(text);
         assert_true(b != NULL || err.code != ERR_NONE);
@@ -298,7 +298,7 @@ TEST(a_merl_file_of_the_wrong_size_is_refused)
     assert_non_null(strstr(err.text, "offset 0: found 9000 x 9000 x 2 cells"));
     counts[0] = counts[1] = 2;
     memcpy(bytes, counts, 12);
-    double infinite = INFINITY;
+    double infinite = HUGE_VAL;
     memcpy(bytes + 12 + 8 * 3, &infinite, 8);
     assert_null(brdf_read_merl(&memory, "m", bytes, sizeof bytes, NULL, &err));
     assert_string_equal(err.text, "m: offset 36: found inf, expected a number below 1e30");

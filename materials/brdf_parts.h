@@ -85,8 +85,8 @@ static inline void vbrdf_blend(const brdf *b, const vbrdf_place *p, vfloat out[4
 vfloat vbrdf_of_nodes(const brdf *b, const float *values, int every, vtable_place theta,
                       vtable_place phi);
 
-/* How often a direction is drawn by the cosine alone, if the table has anything at all; and wi of
- * each lane, which may be below the horizon. */
+/* wi of each lane, which may be below the horizon: drawn from the cells, now and then by the cosine
+ * alone. */
 vvec3 vbrdf_draw(const brdf *b, const vvec3 *wo, vfloat u, vfloat v, vfloat pick);
 
 /* The density of that, 1/sr. */

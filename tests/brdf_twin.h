@@ -12,9 +12,9 @@ typedef double closed_form(dvec in, dvec out);
 
 dvec direction_of(double theta, double phi); /* rad */
 
-/* Ward's anisotropic lobe (1992, in the form of Duer 2006 that is energy-conserving at grazing
- * angles is not needed here: places stay below 85 degrees), 0.15 and 0.4 along x and y; Phong's of
- * exponent 12; both over a diffuse base. */
+/* Ward's anisotropic lobe ("Measuring and Modeling Anisotropic Reflection", SIGGRAPH 1992), 0.3
+ * along x and 0.5 along y, and Phong's of exponent 12, each over a diffuse base. Ward's has no
+ * limit at the horizon: tables of it end at 85 degrees. */
 double ward(dvec in, dvec out);
 double phong(dvec in, dvec out);
 

@@ -412,7 +412,7 @@ TEST(azimuth_0_is_where_up_lies_in_the_surface)
     brdf_desc d       = { .table = b, .up = { 0, 0, 2 } };
     const material *m = material_brdf(&memory, &d, &err);
 
-    /* A wall toward +x: up is z, and z x up... : y of the table is n x up = -y */
+    /* A wall toward +x: the table's x is up, z, and its y is n x up = -y */
     vshading s = { .wo = vspread((vec3){ 0.8f, 0.0f, 0.6f }), .n = vspread((vec3){ 1, 0, 0 }) };
     vvec3 wi   = vspread((vec3){ 0.6f, 0.8f, 0.0f });
     vvec3 wo_t = vspread((vec3){ 0.6f, 0.0f, 0.8f }), wi_t = vspread((vec3){ 0.0f, -0.8f, 0.6f });

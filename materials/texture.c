@@ -81,17 +81,17 @@ static inline vpatch patch_at(const texture *t, vint number, vfloat u, vfloat v)
     return (vpatch){ upper, upper + stride, x - vto_float(column), y - vto_float(line) };
 }
 
-static inline row4 patch_row(const float *texels, const vpatch *p, int i)
+static inline float4 patch_row(const float *texels, const vpatch *p, int i)
 {
     int32_t upper = lane(p->upper, i), lower = lane(p->lower, i);
-    float x  = lane(p->x, i);
-    row4 top = row_lerp(row_load(texels, upper), row_load(texels, upper + 1), x);
-    row4 low = row_lerp(row_load(texels, lower), row_load(texels, lower + 1), x);
-    return row_lerp(top, low, lane(p->y, i));
+    float x    = lane(p->x, i);
+    float4 top = float4_lerp(float4_at(texels, upper), float4_at(texels, upper + 1), x);
+    float4 low = float4_lerp(float4_at(texels, lower), float4_at(texels, lower + 1), x);
+    return float4_lerp(top, low, lane(p->y, i));
 }
 
 static inline void blended_rows(const texture *t, vfloat u, vfloat v, vfloat width, vmask active,
-                                row4 rows[LANES])
+                                float4 rows[LANES])
 {
     /* One texel of the full picture is level 0, two are level 1; a width of NaN is level 0 */
     vfloat wide  = width * t->size;
@@ -108,29 +108,29 @@ static inline void blended_rows(const texture *t, vfloat u, vfloat v, vfloat wid
         return;
     vpatch far = patch_at(t, below + 1, u, v);
     for (int i = 0; i < LANES; i++)
-        rows[i] = row_lerp(rows[i], patch_row(t->texels, &far, i), lane(rest, i));
+        rows[i] = float4_lerp(rows[i], patch_row(t->texels, &far, i), lane(rest, i));
 }
 
-static inline void nearest_rows(const texture *t, vfloat u, vfloat v, row4 rows[LANES])
+static inline void nearest_rows(const texture *t, vfloat u, vfloat v, float4 rows[LANES])
 {
     const level *all = &t->levels[0];
     vint column      = vto_int(vmin(u * all->width, vsplat(all->width - 1.0f)));
     vint line        = vto_int(vmin(v * all->height, vsplat(all->height - 1.0f)));
     vint texel       = (line + 1) * all->stride + column + 1;
     for (int i = 0; i < LANES; i++)
-        rows[i] = row_load(t->texels, lane(texel, i));
+        rows[i] = float4_at(t->texels, lane(texel, i));
 }
 
 vtexel vtexture_lookup(const texture *t, vfloat u, vfloat v, vfloat width, vmask active)
 {
-    row4 rows[LANES];
+    float4 rows[LANES];
     vfloat of[4];
     vfloat x = fold(t->wrap_u, u), y = fold(t->wrap_v, v);
     if (t->nearest)
         nearest_rows(t, x, y, rows);
     else
         blended_rows(t, x, y, width, active, rows);
-    vturn_rows(rows, of);
+    vturn4(rows, of);
     return (vtexel){ vkeep(active, of[0]), vkeep(active, of[1]), vkeep(active, of[2]),
                      vkeep(active, of[3]) };
 }

@@ -27,8 +27,8 @@ static double shades(double x, int count) { return floor(x * count + 0.5) / coun
 static double grain(double u, double v, uint32_t seed)
 {
     const double bend = clouds(2.0 * u, 4.0 * v, 2, seed);
-    const double ring = fraction(7.0 * v + 2.5 * bend);
-    return 0.55 * clouds(4.0 * u, 64.0 * v, 4, seed + 9) + 0.45 * ring * ring * ring;
+    const double ring = fabs(2.0 * fraction(16.0 * v + 4.0 * bend) - 1.0);
+    return 0.55 * clouds(4.0 * u, 64.0 * v, 4, seed + 9) + 0.45 * ring * ring;
 }
 
 /* ---- woods -------------------------------------------------------------------------------- */

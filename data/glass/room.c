@@ -41,7 +41,7 @@ shape window_frame(void)
     static const double z[] = { 0.845, 0.905, 2.195, 2.255 };
     shape s                 = shape_new("Window frame", 1.0);
     s.ink                   = LACQUER;
-    add_plate(&s, &(plate){ 1, 6, 4, x, z, "##### # #####", 0.06, 0.12 });
+    add_plate(&s, &(plate){ 1, 6, 4, x, z, "###### # ######", 0.06, 0.12 });
     add_box(&s, (point){ -0.78, -0.10, 0.825 }, (point){ 0.78, 0.07, 0.852 });
     return s;
 }

@@ -1,6 +1,7 @@
 /* data/model/solid.c -- see solid.h. */
 #include "data/model/solid.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -170,8 +171,7 @@ static void plate_cell(shape *s, const plate *p, uint32_t (*at)[2], int i, int j
 void add_plate(shape *s, const plate *p)
 {
     uint32_t at[SIDE_MAX][2];
-    if (p->nu * p->nv > SIDE_MAX)
-        return;
+    assert(p->nu * p->nv <= SIDE_MAX && strlen(p->cells) == (size_t)((p->nu - 1) * (p->nv - 1)));
     plate_vertices(s, p, at);
     for (int j = 0; j < p->nv - 1; j++)
         for (int i = 0; i < p->nu - 1; i++)

@@ -152,7 +152,7 @@ static void assert_normals(const mesh *m)
     }
 }
 
-static uint32_t assert_in_range(const gltf *g, dvec3 low, dvec3 high)
+static uint32_t assert_within(const gltf *g, dvec3 low, dvec3 high)
 {
     uint32_t triangles = 0;
     for (uint32_t i = 0; i < g->placement_count; i++) {
@@ -180,7 +180,7 @@ static int smooth_meshes(const gltf *g)
 TEST(our_reader_takes_the_car_as_it_is)
 {
     const gltf *g = read_file("data/car/car.glb");
-    assert_near(assert_in_range(g, (dvec3){ -11, -11, -0.2 }, (dvec3){ 11, 11, 5.1 }), 140000.0,
+    assert_near(assert_within(g, (dvec3){ -11, -11, -0.2 }, (dvec3){ 11, 11, 5.1 }), 140000.0,
                 0.05);
     assert_int_equal(g->flat_triangles, 0);
     assert_int_equal(g->material_count, PAINT_COUNT + 1);
@@ -195,7 +195,7 @@ TEST(our_reader_takes_the_car_as_it_is)
 TEST(our_reader_takes_the_room_as_it_is)
 {
     const gltf *g = read_file("data/glass/glass.glb");
-    assert_near(assert_in_range(g, (dvec3){ -0.35, -0.25, -0.25 }, (dvec3){ 5.25, 4.25, 3.0 }),
+    assert_near(assert_within(g, (dvec3){ -0.35, -0.25, -0.25 }, (dvec3){ 5.25, 4.25, 3.0 }),
                 45000.0, 0.05);
     assert_int_equal(g->flat_triangles, 0);
     assert_int_equal(g->texture_count, 13);

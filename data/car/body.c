@@ -130,14 +130,15 @@ static void deal(body *b, const triangle *t, int k)
 
 /* ---- the sheet ---------------------------------------------------------------------------- */
 
-/* Left and right are mirror images: the same heights, to the last bit. */
-static point grid_point(int i, int j)
+/* The points around a station, from below over the left side. The right is its mirror image. */
+static void fill_row(point row[AROUND + 1], int i)
 {
-    const bool left = j % AROUND * 2 <= AROUND;
-    const int k     = left ? j % AROUND : AROUND - j % AROUND;
-    const point p   = form_at(2.0 * i / STATIONS - 1.0, TURN * k / AROUND - TURN / 4.0);
-    const double y  = k == 0 || 2 * k == AROUND ? 0.0 : p.y;
-    return (point){ p.x, left ? y : -y, p.z };
+    for (int j = 0; 2 * j <= AROUND; j++) {
+        row[j] = form_at(2.0 * i / STATIONS - 1.0, TURN * j / AROUND - TURN / 4.0);
+        if (j == 0 || 2 * j == AROUND)
+            row[j].y = 0.0;
+        row[AROUND - j] = (point){ row[j].x, 0.0 - row[j].y, row[j].z };
+    }
 }
 
 static void deal_quad(body *b, point (*rows)[AROUND + 1], int i, int j)
@@ -158,10 +159,10 @@ static shape body_sheets(const char *name, bool lenses)
     b.inks  = calloc(TABLE, sizeof *b.inks);
     b.of.out_of_memory |= !b.table || !b.inks;
     point rows[2][AROUND + 1];
-    for (int i = 0; i <= STATIONS && !b.of.out_of_memory; i++) {
-        for (int j = 0; j <= AROUND; j++)
-            rows[i & 1][j] = grid_point(i, j);
-        for (int j = 0; j < AROUND && i > 0; j++)
+    const int first = lenses ? STATIONS * 3 / 4 : 0; /* they are at the front */
+    for (int i = first; i <= STATIONS && !b.of.out_of_memory; i++) {
+        fill_row(rows[i & 1], i);
+        for (int j = 0; j < AROUND && i > first; j++)
             deal_quad(&b, rows, i, j);
     }
     free(b.table);

@@ -32,6 +32,7 @@ enum {
     GREEN,
     AMBER,
     PARTITION,
+    SKY,
     PAINT_COUNT,
 };
 extern const paint glass_paints[PAINT_COUNT];

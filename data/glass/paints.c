@@ -84,4 +84,5 @@ const paint glass_paints[PAINT_COUNT] = {
                     .transmission   = 1,
                     .ior            = 1.52,
                     .seen_from_both = true },
+    [SKY]       = { "Outside", { 0.02, 0.02, 0.02 } },
 };

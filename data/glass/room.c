@@ -30,7 +30,7 @@ shape room_shell(void)
     s.ink = OAK;
     add_box(&s, (point){ -0.02, 3.965, 1.125 }, (point){ 5.02, 4.02, 1.155 });
     add_box(&s, (point){ -0.02, 3.980, 0.001 }, (point){ 5.02, 4.02, 0.075 });
-    s.ink = LACQUER; /* what closes the window from outside */
+    s.ink = SKY; /* what closes the window from outside: dark, for the light stands before it */
     add_box(&s, (point){ -0.29, 0.9, 0.75 }, (point){ -0.24, 2.5, 2.35 });
     return s;
 }

@@ -54,16 +54,10 @@ bool patch_is_closed(const patch *t)
     return closed;
 }
 
-static point corner(const patch *t, uint32_t i)
+point patch_corner(const patch *t, uint32_t i)
 {
     const float *p = t->xyz + 3 * t->corners[i];
     return (point){ (double)p[0], (double)p[1], (double)p[2] };
-}
-
-static point cross_of(point a, point b, point c)
-{
-    const point e = { b.x - a.x, b.y - a.y, b.z - a.z }, f = { c.x - a.x, c.y - a.y, c.z - a.z };
-    return (point){ e.y * f.z - e.z * f.y, e.z * f.x - e.x * f.z, e.x * f.y - e.y * f.x };
 }
 
 double patch_least_area(const patch *t, double *volume6)
@@ -71,11 +65,12 @@ double patch_least_area(const patch *t, double *volume6)
     double least = HUGE_VAL;
     *volume6     = 0.0;
     for (uint32_t i = 0; i < 3 * t->triangle_count; i += 3) {
-        const point a = corner(t, i), n = cross_of(a, corner(t, i + 1), corner(t, i + 2));
-        const double area = 0.5 * sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
+        const point a = patch_corner(t, i),
+                    n = cross(minus(patch_corner(t, i + 1), a), minus(patch_corner(t, i + 2), a));
+        const double area = 0.5 * length(n);
         assert_true(isfinite(area));
         least = fmin(least, area);
-        *volume6 += a.x * n.x + a.y * n.y + a.z * n.z;
+        *volume6 += dot(a, n);
     }
     return least;
 }

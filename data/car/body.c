@@ -226,11 +226,10 @@ static point same(point p) { return p; }
 static point inward(point p)
 {
     const double e = 1e-4, by = car_paints[LENS].thickness;
-    const point g  = { form((point){ p.x + e, p.y, p.z }) - form((point){ p.x - e, p.y, p.z }),
-                       form((point){ p.x, p.y + e, p.z }) - form((point){ p.x, p.y - e, p.z }),
-                       form((point){ p.x, p.y, p.z + e }) - form((point){ p.x, p.y, p.z - e }) };
-    const double l = sqrt(g.x * g.x + g.y * g.y + g.z * g.z) / by;
-    return (point){ p.x - g.x / l, p.y - g.y / l, p.z - g.z / l };
+    const point g = { form((point){ p.x + e, p.y, p.z }) - form((point){ p.x - e, p.y, p.z }),
+                      form((point){ p.x, p.y + e, p.z }) - form((point){ p.x, p.y - e, p.z }),
+                      form((point){ p.x, p.y, p.z + e }) - form((point){ p.x, p.y, p.z - e }) };
+    return minus(p, times(unit(g), by));
 }
 
 /* The pot behind starts a little below the cover, which keeps clear of it. */

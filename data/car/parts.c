@@ -5,8 +5,6 @@
 
 #define RAD (3.14159265358979323846 / 180.0)
 
-static double side_of(int i) { return i ? 1.0 : -1.0; }
-
 /* ---- outside ------------------------------------------------------------------------------ */
 
 static void door_mirror(shape *s, double side)

@@ -1,8 +1,6 @@
 /* data/glass/furniture.c -- see glass.h. */
 #include "data/glass/glass.h"
 
-static double side_of(int i) { return i ? 1.0 : -1.0; }
-
 /* 1.6 m along x, 0.9 m along y, its top at 0.75 m. */
 shape dining_table(void)
 {

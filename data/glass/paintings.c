@@ -3,8 +3,6 @@
 
 #include <math.h>
 
-static double fraction(double x) { return x - floor(x); }
-
 static void set(double c[4], double r, double g, double b)
 {
     c[0] = r;

@@ -10,7 +10,6 @@ typedef struct rgb {
     double r, g, b;
 } rgb;
 
-static double fraction(double x) { return x - floor(x); }
 static double ramp(double a, double b, double x) { return fmin(fmax((x - a) / (b - a), 0.0), 1.0); }
 
 static void put(double c[4], rgb a, rgb b, double t)

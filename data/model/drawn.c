@@ -32,15 +32,11 @@ static point vertex_of(const patch *t, uint32_t v)
     return (point){ (double)p[0], (double)p[1], (double)p[2] };
 }
 
-static double dot(point a, point b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-static double length(point a) { return sqrt(dot(a, a)); }
-
 static point face_of(const patch *t, uint32_t i)
 {
     const uint32_t *c = t->corners + 3 * i;
     const point a = vertex_of(t, c[0]), b = vertex_of(t, c[1]), d = vertex_of(t, c[2]);
-    const point e = { b.x - a.x, b.y - a.y, b.z - a.z }, f = { d.x - a.x, d.y - a.y, d.z - a.z };
-    return (point){ e.y * f.z - e.z * f.y, e.z * f.x - e.x * f.z, e.x * f.y - e.y * f.x };
+    return cross(minus(b, a), minus(d, a));
 }
 
 /* ---- normals ------------------------------------------------------------------------------ */

@@ -92,6 +92,8 @@ bool picture_write_png(const picture *p, FILE *to)
 
 /* ---- noise -------------------------------------------------------------------------------- */
 
+double fraction(double x) { return x - floor(x); }
+
 static double lattice(int i, int j, int period, uint32_t seed)
 {
     i = (i % period + period) % period;

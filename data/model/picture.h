@@ -24,6 +24,9 @@ bool picture_write_png(const picture *p, FILE *to);
 /* The bytes of zlib's format (RFC 1950, 1951) that stand for these, by fixed codes. */
 bool deflate_write(const unsigned char *bytes, size_t size, FILE *to);
 
+/* Of a number that goes over and over, [0, 1). */
+double fraction(double x);
+
 /* Noise: smooth in u and v, [0, 1], repeating after `period` units of both, mean 0.5. */
 double noise(double u, double v, int period, uint32_t seed);
 

@@ -251,16 +251,6 @@ void add_cylinder(shape *s, point base, double radius, double height, int segmen
     cap(s, &high, n, false);
 }
 
-static point minus(point a, point b) { return (point){ a.x - b.x, a.y - b.y, a.z - b.z }; }
-static double dot(point a, point b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-static point times(point a, double f) { return (point){ a.x * f, a.y * f, a.z * f }; }
-static point unit(point a) { return times(a, 1.0 / sqrt(dot(a, a))); }
-
-static point cross(point a, point b)
-{
-    return (point){ a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
-}
-
 /* Where a tube points at its i-th point: midway between the stretches before and after. */
 static point heading(const tube *t, int i)
 {

@@ -8,14 +8,12 @@
 #ifndef MODEL_SOLID_H
 #define MODEL_SOLID_H
 
+#include "data/model/point.h"
+
 #include <stdbool.h>
 #include <stdint.h>
 
 #define COUNT(array) (int)(sizeof(array) / sizeof *(array))
-
-typedef struct point {
-    double x, y, z;
-} point;
 
 enum { INK_MAX = 32 }; /* materials of a model */
 

@@ -90,26 +90,18 @@ TEST(all_solids_of_glass_are_closed_and_look_outward)
     assert_int_equal(assert_glass_is_closed(&built), 5);
 }
 
-static point corner_of(const patch *t, uint32_t i)
-{
-    const float *p = t->xyz + 3 * t->corners[i];
-    return (point){ (double)p[0], (double)p[1], (double)p[2] };
-}
-
-/* A millimetre in front of each triangle's middle is outside of the form, behind it inside. */
-static uint32_t assert_looks_outward(const patch *t)
+/* Triangles of which a millimetre in front of their middle is not further out than behind it. */
+static uint32_t looking_inward(const patch *t)
 {
     uint32_t wrong = 0;
     for (uint32_t i = 0; i < 3 * t->triangle_count; i += 3) {
-        const point a = corner_of(t, i), b = corner_of(t, i + 1), c = corner_of(t, i + 2);
-        const point e  = { b.x - a.x, b.y - a.y, b.z - a.z },
-                    f  = { c.x - a.x, c.y - a.y, c.z - a.z };
-        point n        = { e.y * f.z - e.z * f.y, e.z * f.x - e.x * f.z, e.x * f.y - e.y * f.x };
-        const double l = sqrt(n.x * n.x + n.y * n.y + n.z * n.z) / 0.001;
-        const point m  = { (a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3, (a.z + b.z + c.z) / 3 };
-        if (l > 0.0)
-            wrong += form((point){ m.x + n.x / l, m.y + n.y / l, m.z + n.z / l }) <=
-                     form((point){ m.x - n.x / l, m.y - n.y / l, m.z - n.z / l });
+        const point a = patch_corner(t, i), b = patch_corner(t, i + 1), c = patch_corner(t, i + 2);
+        const point n = cross(minus(b, a), minus(c, a));
+        const point m =
+            times((point){ a.x + b.x + c.x, a.y + b.y + c.y, a.z + b.z + c.z }, 1.0 / 3);
+        if (length(n) > 0.0)
+            wrong +=
+                form(minus(m, times(unit(n), -0.001))) <= form(minus(m, times(unit(n), 0.001)));
     }
     return wrong;
 }
@@ -119,7 +111,7 @@ TEST(the_body_of_the_car_looks_outward)
     shape s = car_body();
     assert_false(s.out_of_memory);
     for (int k = 0; k < PAINT_COUNT; k++)
-        assert_int_equal(assert_looks_outward(&s.patches[k]), 0);
+        assert_int_equal(looking_inward(&s.patches[k]), 0);
     assert_true(s.patches[PAINT].triangle_count > 30000);
     assert_true(s.patches[WINDOW].triangle_count > 3000);
     solid_clear(&s);

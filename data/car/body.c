@@ -241,6 +241,21 @@ static point bottom_of_pot(point p)
     return (point){ 1.90 + 0.1 * (p.x - 1.9), y + 0.8 * (p.y - y), 0.615 + 0.8 * (p.z - 0.615) };
 }
 
+/* Two bright bowls in each pot, open to the front. */
+static void reflectors(shape *s)
+{
+    static const double bowl[][2] = { { 0.008, 0.000 }, { 0.020, 0.002 }, { 0.032, 0.010 },
+                                      { 0.041, 0.030 }, { 0.038, 0.030 }, { 0.029, 0.013 },
+                                      { 0.018, 0.006 }, { 0.008, 0.004 } };
+    s->ink                        = CHROME;
+    for (int i = 0; i < 4; i++) {
+        const double y = side_of(i & 1) * (i & 2 ? 0.635 : 0.535);
+        shape_at(s, (point){ 1.912, y, 0.612 }, 90.0, 90.0); /* its axis along x */
+        add_lathe(s, &(lathe){ bowl, COUNT(bowl), 32, true });
+    }
+    shape_at(s, (point){ 0 }, 0.0, 0.0);
+}
+
 shape car_lamps(void)
 {
     shape sheet = body_sheets("Lens", true), s = shape_new("Head lights", 1.0);
@@ -259,5 +274,6 @@ shape car_lamps(void)
     add_copy(&s, t, pot, false);
     wall(&s, t, pot, rim);
     solid_clear(&sheet);
+    reflectors(&s);
     return s;
 }

@@ -103,7 +103,7 @@ shape car_trimmings(void)
 
 static void padding(shape *s, point centre, point half, double squareness, double edge)
 {
-    add_cushion(s, &(cushion){ centre, half, squareness, edge, 36, 12, false });
+    add_cushion(s, &(cushion){ centre, half, squareness, edge, 28, 12, false });
 }
 
 static void seat(shape *s, point at)

@@ -21,11 +21,11 @@ static void table_ware(model *m)
         model_put(m, china, on_table(x, y), 0.0);
         model_put(m, glass, on_table(x - 0.12 * in, y + 0.15 * in), 0.0);
     }
-    model_put_new(m, carafe(), on_table(0.02, -0.10), 0.0);
-    model_put_new(m, vase(), on_table(-0.22, 0.06), 0.0);
-    model_put_new(m, glass_ball(), on_table(0.60, -0.02), 0.0);
-    model_put_new(m, glass_block(), on_table(0.17, -0.30), 25.0);
-    model_put_new(m, fruit_bowl(), on_table(0.20, 0.10), 0.0);
+    model_put_new(m, carafe(), on_table(0.30, 0.06), 0.0);
+    model_put_new(m, vase(), on_table(-0.62, 0.02), 0.0);
+    model_put_new(m, glass_ball(), on_table(0.62, -0.02), 0.0);
+    model_put_new(m, glass_block(), on_table(0.06, -0.28), 25.0);
+    model_put_new(m, fruit_bowl(), on_table(-0.02, 0.06), 0.0);
 }
 
 static void furniture(model *m)

@@ -77,7 +77,7 @@ const paint glass_paints[PAINT_COUNT] = {
     [CLEAR]     = SOLID("Glass clear", 0.995, 0.998, 0.996),
     [BLUE]      = SOLID("Glass blue", 0.25, 0.55, 0.88),
     [GREEN]     = SOLID("Glass green", 0.30, 0.80, 0.45),
-    [AMBER]     = SOLID("Glass amber", 0.92, 0.66, 0.22),
+    [AMBER]     = SOLID("Glass amber", 0.985, 0.93, 0.66),
     [PARTITION] = { "Partition",
                     { 0.90, 0.96, 0.93 },
                     .gloss          = 1,

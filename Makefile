@@ -133,15 +133,17 @@ $(PLUG): $(SHIM) $B/flags
 	@mkdir -p $(@D); echo "SO   $@"
 	$Q$(CXX) $(CPPFLAGS) $(PLUGIN_CFLAGS) $(CXXFLAGS) -fPIC -shared $(LDFLAGS) $< $(PLUGIN_LIBS) -o $@
 
-# What packets are measured against: plain scalar C, once with the arithmetic of the x87
+# What packets are measured against: plain scalar C, and of some the same with the x87's arithmetic
 PLAIN := $(patsubst %.c,$B/%,$(wildcard tests/bench/plain_*.c))
-$(PLAIN:$B/tests/bench/plain_%=$B/tests/bench/bench_%): $B/tests/bench/bench_%: $B/tests/bench/plain_%.o $B/tests/bench/plain_%_387.o
-$(PLAIN:=_387.o): private X87 := -mfpmath=387 -DPLAIN_387
+X87_PLAIN := $(filter-out %_texture,$(PLAIN))
+$(PLAIN:$B/tests/bench/plain_%=$B/tests/bench/bench_%): $B/tests/bench/bench_%: $B/tests/bench/plain_%.o
+$(X87_PLAIN:$B/tests/bench/plain_%=$B/tests/bench/bench_%): $B/tests/bench/bench_%: $B/tests/bench/plain_%_387.o
+$(X87_PLAIN:=_387.o): private X87 := -mfpmath=387 -DPLAIN_387
 PLAIN_CC = mkdir -p $(@D); echo "CC   $< $(X87)"; \
 	$(CC) $(CPPFLAGS) $(CFLAGS) -fno-tree-vectorize -fno-tree-slp-vectorize $(X87) -c $< -o $@
 $(PLAIN:=.o): $B/%.o: %.c $B/flags
 	@$(PLAIN_CC)
-$(PLAIN:=_387.o): $B/%_387.o: %.c $B/flags
+$(X87_PLAIN:=_387.o): $B/%_387.o: %.c $B/flags
 	@$(PLAIN_CC)
 
 $B/%.c.o: %.c $B/flags
@@ -159,7 +161,7 @@ $B/flags $B/links: FORCE
 	@mkdir -p $(@D); echo '$(subst ','\'',$(TELL))' | cmp -s - $@ || echo '$(subst ','\'',$(TELL))' > $@
 
 -include $(patsubst %,$B/%.d,$(SRC:=) $(AIDS) sim/main.c) $(addsuffix .c.d,$(TESTS) $(LONG) $(BENCH) $(FUZZERS))
--include $(PLUG:.so=.d) $(patsubst %.o,%.d,$(MODEL) $(OFFICE) $(CAR) $(GLASS) $(LAYER)) $(PLAIN:=.d) $(PLAIN:=_387.d)
+-include $(PLUG:.so=.d) $(patsubst %.o,%.d,$(MODEL) $(OFFICE) $(CAR) $(GLASS) $(LAYER)) $(PLAIN:=.d) $(X87_PLAIN:=_387.d)
 
 # What is missing is installed for check and demo, which set a machine up; else it is named.
 build/pkg.mk: Makefile

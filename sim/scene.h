@@ -116,6 +116,7 @@ typedef struct scene {
     double glow_watts; /* W, not dimmed, of glowing surfaces that are no emitters: they have
                           textures of emission or alpha, and only rays find them */
     uint64_t texture_bytes;
+    bool mirrors_hide; /* light of small lamps that comes by way of mirrors is not found */
     int small_patches; /* lamps that light a patch too small for samples to find reliably */
 } scene;
 

@@ -3,11 +3,6 @@
 
 #include <math.h>
 
-#ifdef PLAIN_387
-#define plain_texture_lookup plain_texture_lookup_387
-#define plain_texture_sum    plain_texture_sum_387
-#endif
-
 static float lerp(float a, float b, float t) { return a + t * (b - a); }
 
 /* Bilinear in one level; u and v in [0, 1] */

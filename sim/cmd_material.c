@@ -5,12 +5,12 @@
 
 static int material_command(const command_context *c, lux_error *err)
 {
+    run_options run    = command_run_options(c, 1);
     material_options o = { .json      = c->line->json,
                            .plot      = c->line->plot,
                            .swatch    = c->line->swatch,
                            .overwrite = c->line->place.overwrite,
-                           .threads   = command_threads(c),
-                           .progress  = c->progress };
+                           .run       = &run };
     bool good = material_report(stdout, c->line->files, c->line->file_count, &o, c->notices, err);
     terminal_clear(c->terminal);
     if (good && !o.json && o.plot)
@@ -34,9 +34,13 @@ const command command_material = {
         "over the larger f of its pair. The rest is as simulated: completed and scaled.\n"
         "--plot draws, for beams 0, 30, 60 and 80 degrees off the normal, f cos in 1/sr in the\n"
         "plane of incidence (what of the beam leaves into a unit of solid angle; below the\n"
-        "surface: let through), and beside it the albedo against the angle.\n"
+        "surface: let through), each lobe to its largest value, which the legend tells; and "
+        "beside\n"
+        "it the albedo against the angle.\n"
         "--swatch renders a ball of it, 1 m across, on a floor with squares of 25 cm, under a\n"
-        "large lamp behind the left shoulder and a small bright one on the right.\n",
-    .options = " --plot --swatch --overwrite --threads --json --quiet ",
+        "large lamp behind the left shoulder and a small bright one on the right: a preview, with "
+        "less noise\n"
+        "by --accuracy (100 % if not given).\n",
+    .options = " --plot --swatch --overwrite --accuracy --time --threads --seed --json --quiet ",
     .run     = material_command,
 };

@@ -337,7 +337,7 @@ static bool draw(const measured *m, const material_options *o, lux_error *err)
                           .up      = { 0, 0, 1 } };
     if (o->plot && !material_plot(m, title_of(m->path), o->plot, err))
         return false;
-    return !o->swatch || swatch_write(&of, o->swatch, o->threads, o->progress, err);
+    return !o->swatch || swatch_write(&of, o->swatch, o->run, err);
 }
 
 static bool report_file(FILE *out, const char *file, const material_options *o, bool *first,

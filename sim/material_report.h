@@ -2,19 +2,18 @@
 #ifndef SIM_MATERIAL_REPORT_H
 #define SIM_MATERIAL_REPORT_H
 
-#include "core/progress.h"
 #include "materials/brdf.h"
 #include "materials/bsdf.h"
+#include "sim/grid.h"
 
 #include <stdio.h>
 
 typedef struct material_options {
     bool json;
-    const char *plot;   /* an SVG file to write, or NULL; with one file only */
-    const char *swatch; /* a PNG file to write, or NULL; with one file only */
-    bool overwrite;     /* replace what stands at these names */
-    int threads;        /* for the swatch, >= 1 */
-    progress *progress; /* NULL */
+    const char *plot;       /* an SVG file to write, or NULL; with one file only */
+    const char *swatch;     /* a PNG file to write, or NULL; with one file only */
+    bool overwrite;         /* replace what stands at these names */
+    const run_options *run; /* of the swatch */
 } material_options;
 
 /* Reads the files and reports on each to `out`: labelled figures, or with o->json one object, as

@@ -8,14 +8,14 @@
 
 static const char room[] =
     "lux4: 1\n"
-    "room: {size: [6, 6, 3], reflectance: 0.7}\n"
+    "room: {size: [6, 6, 3], reflectance: 0.5}\n"
     "scene: ball\n"
     "lights:\n"
     "  - {type: rect, at: [1.6, 1.8, 2.9], aim_at: [3, 3, 0.5], size: [2, 1], luminance: 3000}\n"
     "  - {type: disk, at: [5, 2.2, 2.6], aim_at: [3, 3, 0.5], radius: 0.1, luminance: 60000}\n"
     "views: [{name: ball, eye: [3, 0.4, 1.2], target: [3, 3, 0.45], fov: 31, size: [256, 256]}]\n";
 
-static const double PERCENT = 60.0; /* of accuracy: a few dozen samples for most pixels */
+static const double ACCURACY = 1.0; /* if not said: 32 samples for all but a few pixels */
 
 /* ---- the model ------------------------------------------------------------------------------- */
 
@@ -143,7 +143,7 @@ static study_material matt(const char *name, float reflectance)
                              .exponent    = (double)NAN };
 }
 
-static bool render(arena *a, const study_material *m, int threads, progress *p, view_result *out,
+static bool render(arena *a, const study_material *m, const run_options *o, view_result *out,
                    lux_error *err)
 {
     const study *parsed = study_parse(a, "swatch", NULL, room, strlen(room), NULL, err);
@@ -158,22 +158,19 @@ static bool render(arena *a, const study_material *m, int threads, progress *p, 
     s.materials                    = made;
     s.material_count               = MATERIALS;
 
-    scene_options of_scene = { .threads = threads, .models = &ball };
-    run_options o          = { .accuracy = PERCENT / 100.0,
-                               .deadline = HUGE_VAL,
-                               .seed     = 1,
-                               .threads  = threads,
-                               .progress = p };
+    scene_options of_scene = { .threads = o->threads, .models = &ball };
+    run_options run        = *o;
+    run.accuracy           = isnan(o->accuracy) ? ACCURACY : o->accuracy;
     const scene *whole     = scene_new(a, &s, &of_scene, NULL, err);
-    return whole && view_run(a, whole, &s.views[0], &o, out, err);
+    return whole && view_run(a, whole, &s.views[0], &run, out, err);
 }
 
-bool swatch_write(const study_material *m, const char *picture, int threads, progress *p,
+bool swatch_write(const study_material *m, const char *picture, const run_options *o,
                   lux_error *err)
 {
     arena a = { 0 };
     view_result r;
-    bool good = render(&a, m, threads, p, &r, err);
+    bool good = render(&a, m, o, &r, err);
     if (good && r.end == RUN_INTERRUPTED)
         good = failed(err, ERR_INTERRUPTED, "%s: interrupted", picture);
     good = good && view_write_png(picture, &r, 0.0, err);

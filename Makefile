@@ -76,7 +76,7 @@ MAKEFLAGS += --no-builtin-rules --no-print-directory
 Q         := $(if $V,,@)
 .DELETE_ON_ERROR:
 .SECONDARY:
-.PHONY: all check check-long tests demo bench bench-lights bench-texture bench-hall bench-programs bench-deps deps fuzz fuzzers install layers \
+.PHONY: all check check-long tests demo bench bench-lights bench-brdf bench-texture bench-hall bench-programs bench-deps deps fuzz fuzzers install layers \
         format format-check clean help FORCE
 
 ## all: the library and the program (what plain `make` does)
@@ -113,6 +113,11 @@ $B/make_bsdf: $(LAYER) $B/data/materials/make_bsdf.c.o $B/links
 	@echo "LD   $@"
 	$Q$(CXX) $(SANS) $(filter %.o,$^) -lm -o $@
 
+# The program that makes the tables of reflection in data/materials
+$B/make_brdf: data/materials/make_brdf.c $B/flags
+	@mkdir -p $(@D); echo "LD   $@"
+	$Q$(CC) $(CPPFLAGS) $(CFLAGS) $< -lm -o $@
+
 build/bench/office-%.glb: $B/make_office
 	@mkdir -p $(@D); $< --bench $* $@
 
@@ -120,20 +125,18 @@ $(PLUG): $(SHIM) $B/flags
 	@mkdir -p $(@D); echo "SO   $@"
 	$Q$(CXX) $(CPPFLAGS) $(PLUGIN_CFLAGS) $(CXXFLAGS) -fPIC -shared $(LDFLAGS) $< $(PLUGIN_LIBS) -o $@
 
-# The lights as plain scalar C, once with the arithmetic of the x87
-PLAIN_LIGHTS := $B/tests/bench/plain_lights.o $B/tests/bench/plain_lights_387.o
-$B/tests/bench/bench_lights: $(PLAIN_LIGHTS)
-$B/tests/bench/plain_lights_387.o: private X87 := -mfpmath=387 -DPLAIN_387
-$(PLAIN_LIGHTS): tests/bench/plain_lights.c $B/flags
-	@mkdir -p $(@D); echo "CC   $< $(X87)"
-	$Q$(CC) $(CPPFLAGS) $(CFLAGS) -fno-tree-vectorize -fno-tree-slp-vectorize $(X87) -c $< -o $@
-
-# Textures as plain scalar C
-PLAIN_TEXTURE := $B/tests/bench/plain_texture.o
-$B/tests/bench/bench_texture: $(PLAIN_TEXTURE)
-$(PLAIN_TEXTURE): tests/bench/plain_texture.c $B/flags
-	@mkdir -p $(@D); echo "CC   $<"
-	$Q$(CC) $(CPPFLAGS) $(CFLAGS) -fno-tree-vectorize -fno-tree-slp-vectorize -c $< -o $@
+# What packets are measured against: plain scalar C, and of some the same with the x87's arithmetic
+PLAIN := $(patsubst %.c,$B/%,$(wildcard tests/bench/plain_*.c))
+X87_PLAIN := $(filter-out %_texture,$(PLAIN))
+$(PLAIN:$B/tests/bench/plain_%=$B/tests/bench/bench_%): $B/tests/bench/bench_%: $B/tests/bench/plain_%.o
+$(X87_PLAIN:$B/tests/bench/plain_%=$B/tests/bench/bench_%): $B/tests/bench/bench_%: $B/tests/bench/plain_%_387.o
+$(X87_PLAIN:=_387.o): private X87 := -mfpmath=387 -DPLAIN_387
+PLAIN_CC = mkdir -p $(@D); echo "CC   $< $(X87)"; \
+	$(CC) $(CPPFLAGS) $(CFLAGS) -fno-tree-vectorize -fno-tree-slp-vectorize $(X87) -c $< -o $@
+$(PLAIN:=.o): $B/%.o: %.c $B/flags
+	@$(PLAIN_CC)
+$(X87_PLAIN:=_387.o): $B/%_387.o: %.c $B/flags
+	@$(PLAIN_CC)
 
 $B/%.c.o: %.c $B/flags
 	@mkdir -p $(@D); echo "CC   $<"
@@ -150,7 +153,7 @@ $B/flags $B/links: FORCE
 	@mkdir -p $(@D); echo '$(subst ','\'',$(TELL))' | cmp -s - $@ || echo '$(subst ','\'',$(TELL))' > $@
 
 -include $(patsubst %,$B/%.d,$(SRC:=) $(AIDS) sim/main.c) $(addsuffix .c.d,$(TESTS) $(LONG) $(BENCH) $(FUZZERS))
--include $(PLUG:.so=.d) $(OFFICE:.o=.d) $(LAYER:.o=.d) $(PLAIN_LIGHTS:.o=.d) $(PLAIN_TEXTURE:.o=.d)
+-include $(PLUG:.so=.d) $(OFFICE:.o=.d) $(LAYER:.o=.d) $(PLAIN:=.d) $(X87_PLAIN:=_387.d)
 
 # What is missing is installed for check and demo, which set a machine up; else it is named.
 build/pkg.mk: Makefile
@@ -193,18 +196,13 @@ bench: bench-deps build/bench/office-65000.glb build/bench/office-270000.glb
 bench-programs: $(BENCH)
 
 ## bench-lights: nanoseconds a point of each kind of light, beside plain C; appended to build/bench.log
-bench-lights:
-	$Q$(MAKE) build/$(KIND)-4/tests/bench/bench_lights WIDTH=4
-	$Q$(MAKE) build/$(KIND)-1/tests/bench/bench_lights WIDTH=1
-	@{ echo "# $$(git describe --always --dirty 2>/dev/null) $(CC) $(OPT)"; \
-	  build/$(KIND)-4/tests/bench/bench_lights build/$(KIND)-1/tests/bench/bench_lights; } | tee -a build/bench.log
-
+## bench-brdf: nanoseconds a look-up of a measured BRDF, beside plain C; appended to build/bench.log
 ## bench-texture: nanoseconds a trilinear look-up, beside plain C; appended to build/bench.log
-bench-texture:
-	$Q$(MAKE) build/$(KIND)-4/tests/bench/bench_texture WIDTH=4
-	$Q$(MAKE) build/$(KIND)-1/tests/bench/bench_texture WIDTH=1
+bench-lights bench-brdf bench-texture: bench-%:
+	$Q$(MAKE) build/$(KIND)-4/tests/bench/bench_$* WIDTH=4
+	$Q$(MAKE) build/$(KIND)-1/tests/bench/bench_$* WIDTH=1
 	@{ echo "# $$(git describe --always --dirty 2>/dev/null) $(CC) $(OPT)"; \
-	  build/$(KIND)-4/tests/bench/bench_texture build/$(KIND)-1/tests/bench/bench_texture; } | tee -a build/bench.log
+	  build/$(KIND)-4/tests/bench/bench_$* build/$(KIND)-1/tests/bench/bench_$*; } | tee -a build/bench.log
 
 ## bench-hall: seconds that 1,000 lamps in a hall cost, beside 10; appended to build/bench.log
 bench-hall:

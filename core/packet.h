@@ -153,33 +153,10 @@ static inline vint vgather_int(const int32_t *table, vint index)
     return vload_int(at);
 }
 
-/* Rows: four floats side by side, of one lane. A table whose entries are four numbers is read a
- * row at a time, one load each, and rows are blended before they are turned into numbers per lane
- * (vturn_rows: rows[i] becomes lane i of the four). Row index is table[4 index ... 4 index + 3];
- * row_lerp is a + t (b - a), to the bit a where a and b are the same. */
-#if PACKET_WIDTH == 1
-typedef struct row4 {
-    float x, y, z, w;
-} row4;
-static inline row4 row_lerp(row4 a, row4 b, float t)
-{
-    return (row4){ a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z),
-                   a.w + t * (b.w - a.w) };
-}
-#else
-typedef float row4 __attribute__((vector_size(16)));
-static inline row4 row_lerp(row4 a, row4 b, float t) { return a + t * (b - a); }
-#endif
-static inline row4 row_load(const float *table, int32_t index)
-{
-    row4 row;
-    memcpy(&row, table + 4 * (ptrdiff_t)index, sizeof row);
-    return row;
-}
-
-/* Four floats side by side, such as the red, green, blue and spare of a table's corner: what one
- * lane blends by itself. float4_load wants them on a multiple of 16 bytes. vturn4 makes of a float4
- * a lane one packet of each of the four. */
+/* Four floats side by side, such as the red, green, blue and spare of a table's corner: one load,
+ * and what one lane blends by itself. float4_lerp is p + t (q - p), to the bit p where both are the
+ * same. vturn4 makes of a float4 a lane one packet of each of the four; vgather4 reads them, those
+ * of each lane from table[4 index] on. */
 #if PACKET_WIDTH == 1
 typedef struct float4 {
     float a, b, c, d;
@@ -193,12 +170,18 @@ static inline float4 float4_add(float4 p, float4 q)
 {
     return (float4){ p.a + q.a, p.b + q.b, p.c + q.c, p.d + q.d };
 }
+static inline float4 float4_lerp(float4 p, float4 q, float t)
+{
+    return (float4){ p.a + t * (q.a - p.a), p.b + t * (q.b - p.b), p.c + t * (q.c - p.c),
+                     p.d + t * (q.d - p.d) };
+}
 static inline void vturn4(const float4 q[LANES], vfloat out[4]) { memcpy(out, q, sizeof *q); }
 #else
 typedef float float4 __attribute__((vector_size(16)));
 
 static inline float4 float4_scale(float4 q, float s) { return q * s; }
 static inline float4 float4_add(float4 p, float4 q) { return p + q; }
+static inline float4 float4_lerp(float4 p, float4 q, float t) { return p + t * (q - p); }
 #if PACKET_WIDTH == 4
 static inline void vturn4(const float4 q[LANES], vfloat out[4])
 {
@@ -224,8 +207,19 @@ static inline void vturn4(const float4 q[LANES], vfloat out[4])
 static inline float4 float4_load(const float *from)
 {
     float4 q;
-    memcpy(&q, __builtin_assume_aligned(from, 16), sizeof q);
+    memcpy(&q, from, sizeof q);
     return q;
+}
+static inline float4 float4_at(const float *table, int32_t index)
+{
+    return float4_load(table + 4 * (ptrdiff_t)index);
+}
+static inline void vgather4(const float *table, vint index, vfloat out[4])
+{
+    float4 rows[LANES];
+    for (int i = 0; i < LANES; i++)
+        rows[i] = float4_at(table, lane(index, i));
+    vturn4(rows, out);
 }
 
 /* What the compiler has no operator for. vmin is a < b ? a : b, and so b where either is NaN;
@@ -255,17 +249,6 @@ static inline vuint vreverse_bits(vuint a)
     __m128i high        = _mm_and_si128(_mm_srli_epi16(bytes, 4), half);
     return (vuint)(_mm_shuffle_epi8(upper, low) | _mm_shuffle_epi8(lower, high));
 }
-static inline void vturn_rows(const row4 rows[LANES], vfloat out[4])
-{
-    __m128 low_xy  = _mm_unpacklo_ps(rows[0], rows[1]);
-    __m128 low_zw  = _mm_unpackhi_ps(rows[0], rows[1]);
-    __m128 high_xy = _mm_unpacklo_ps(rows[2], rows[3]);
-    __m128 high_zw = _mm_unpackhi_ps(rows[2], rows[3]);
-    out[0]         = _mm_movelh_ps(low_xy, high_xy);
-    out[1]         = _mm_movehl_ps(high_xy, low_xy);
-    out[2]         = _mm_movelh_ps(low_zw, high_zw);
-    out[3]         = _mm_movehl_ps(high_zw, low_zw);
-}
 #elif PACKET_WIDTH == 8 && defined __AVX2__
 #include <immintrin.h>
 static inline vfloat vsqrt(vfloat a) { return _mm256_sqrt_ps(a); }
@@ -289,21 +272,6 @@ static inline vuint vreverse_bits(vuint a)
     __m256i high        = _mm256_and_si256(_mm256_srli_epi16(bytes, 4), half);
     return (vuint)(_mm256_shuffle_epi8(_mm256_broadcastsi128_si256(upper), low) |
                    _mm256_shuffle_epi8(_mm256_broadcastsi128_si256(lower), high));
-}
-static inline void vturn_rows(const row4 rows[LANES], vfloat out[4])
-{
-    __m256 row04   = _mm256_set_m128(rows[4], rows[0]);
-    __m256 row15   = _mm256_set_m128(rows[5], rows[1]);
-    __m256 row26   = _mm256_set_m128(rows[6], rows[2]);
-    __m256 row37   = _mm256_set_m128(rows[7], rows[3]);
-    __m256 low_xy  = _mm256_unpacklo_ps(row04, row15);
-    __m256 low_zw  = _mm256_unpackhi_ps(row04, row15);
-    __m256 high_xy = _mm256_unpacklo_ps(row26, row37);
-    __m256 high_zw = _mm256_unpackhi_ps(row26, row37);
-    out[0]         = _mm256_shuffle_ps(low_xy, high_xy, _MM_SHUFFLE(1, 0, 1, 0));
-    out[1]         = _mm256_shuffle_ps(low_xy, high_xy, _MM_SHUFFLE(3, 2, 3, 2));
-    out[2]         = _mm256_shuffle_ps(low_zw, high_zw, _MM_SHUFFLE(1, 0, 1, 0));
-    out[3]         = _mm256_shuffle_ps(low_zw, high_zw, _MM_SHUFFLE(3, 2, 3, 2));
 }
 #else /* one lane, or another processor */
 static inline vfloat vsqrt(vfloat a)
@@ -344,24 +312,7 @@ static inline vuint vreverse_bits(vuint a)
     a = ((a >> 2) & 0x33333333) | ((a & 0x33333333) << 2);
     return ((a >> 1) & 0x55555555) | ((a & 0x55555555) << 1);
 }
-static inline void vturn_rows(const row4 rows[LANES], vfloat out[4])
-{
-    float at[LANES][4], turned[4][LANES];
-    memcpy(at, rows, sizeof at);
-    for (int i = 0; i < LANES; i++)
-        for (int k = 0; k < 4; k++)
-            turned[k][i] = at[i][k];
-    for (int k = 0; k < 4; k++)
-        out[k] = vload(turned[k]);
-}
 #endif
-static inline void vgather4(const float *table, vint index, vfloat out[4])
-{
-    row4 rows[LANES];
-    for (int i = 0; i < LANES; i++)
-        rows[i] = row_load(table, lane(index, i));
-    vturn_rows(rows, out);
-}
 
 /* Over all lanes; vsum adds from lane 0 upward. */
 static inline bool vany(vmask m) { return vbits(m) != 0; }

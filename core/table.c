@@ -54,13 +54,14 @@ static bool one_in_each(const table_axis *axis, float per_unit, int cells)
     return true;
 }
 
-/* Of `count` bins: place i is the last at or before the begin of the bin, -1 in the first. */
+/* Of `count` bins: place i is the last at or before the begin of the bin, -1 in the first; where
+ * none but the end follows it, the one before it, so that no x is beyond the second. */
 static void fill_bins(const table_axis *axis, float per_unit, int cells, float end, float *bins,
                       int count)
 {
     int i = -1;
     for (int b = 0; b < count; b++) {
-        while (i + 1 < cells && bin_of(axis, per_unit, axis->at[i + 1]) < b)
+        while (i + 2 < cells && bin_of(axis, per_unit, axis->at[i + 1]) < b)
             i++;
         for (int k = 0; k < 3; k++)
             bins[4 * b + k] = i + k < 0 ? axis->at[0] : i + k < cells ? axis->at[i + k] : end;

@@ -124,6 +124,8 @@ static void *wrong(const reader *r, const char *expected)
 static bool read_kind(reader *r, header *h)
 {
     next_word(r, true);
+    if (h->kind >= 0)
+        return wrong(r, "parameters named once");
     for (int i = 0; i < 3; i++)
         if (take_word(r, kind_names[i])) {
             h->kind = i;
@@ -174,16 +176,13 @@ static bool read_axis(reader *r, header *h, int axis)
     if (h->counts[axis])
         return failed(r->err, ERR_FORMAT, "%s:%d: found %s a second time", r->path, r->line,
                       axis_names[h->kind][axis]);
-    int room     = 0;
+    int room = 0, line = r->line;
     double value = 0.0, *at = NULL;
     while (next_word(r, false) && take_number(r, &value)) {
         int count = h->counts[axis];
         if (count == MOST_AXIS)
             return failed(r->err, ERR_FORMAT, "%s:%d: found more than %d places on an axis",
                           r->path, r->line, MOST_AXIS);
-        if (count > 0 && !(value > at[count - 1]))
-            return failed(r->err, ERR_FORMAT, "%s:%d: found %g after %g, expected ascending %s",
-                          r->path, r->line, value, at[count - 1], axis_names[h->kind][axis]);
         if (count == room) {
             room         = room ? 2 * room : 64;
             double *more = arena_array(r->scratch, double, (size_t)room, r->err);
@@ -196,14 +195,18 @@ static bool read_axis(reader *r, header *h, int axis)
         at[h->counts[axis]++] = value;
     }
     h->deg[axis] = at;
-    return h->counts[axis] > 0 || wrong(r, "places in degrees");
+    if (h->counts[axis] == 0)
+        return wrong(r, "places in degrees");
+    char where[400];
+    snprintf(where, sizeof where, "%s:%d", r->path, line);
+    return brdf_check_places(where, (brdf_kind)h->kind, axis, at, h->counts[axis], r->err);
 }
 
 /* One keyword and what belongs to it, but `values`. */
 static bool read_keyword(reader *r, header *h)
 {
     if (take_word(r, "parameters"))
-        return h->kind < 0 ? read_kind(r, h) : wrong(r, "the parameters named once") != NULL;
+        return read_kind(r, h);
     if (take_word(r, "bands"))
         return read_bands(r, h);
     if (take_word(r, "unit")) {
@@ -246,9 +249,13 @@ static bool read_place(reader *r, const header *h, float rgb[3])
     double sum[3] = { 0 };
     bool missing  = false;
     for (int i = 0; i < h->bands; i++) {
-        double value;
-        if (!next_word(r, false) || !take_number(r, &value) || !(value <= 1e30))
+        double value     = 0.0;
+        bool more        = next_word(r, false);
+        const char *word = r->at;
+        if (!more || !take_number(r, &value) || value > 1e30) {
+            r->at = word;
             return wrong(r, "a value in 1/sr, below 1e30");
+        }
         missing = missing || value < 0.0;
         for (int c = 0; c < 3; c++)
             sum[c] += h->weights[i][c] * value;

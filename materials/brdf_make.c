@@ -64,30 +64,29 @@ static void make_phi(making *m, const double *deg, int count, bool mirrors, doub
             add(m, 360.0 - deg[i], i);
 }
 
-static bool check_places(const brdf_data *d, int axis, lux_error *err)
+bool brdf_check_places(const char *where, brdf_kind kind, int axis, const double *deg, int count,
+                       lux_error *err)
 {
-    const char *what = kinds[d->kind].names[axis];
-    const double *at = d->deg[axis];
-    int count        = d->counts[axis];
-    bool turns       = kinds[d->kind].turns[axis];
+    const char *what = kinds[kind].names[axis];
+    bool turns       = kinds[kind].turns[axis];
     double low = turns ? -180.0 : 0.0, high = turns ? 540.0 : 90.0;
-    double span = d->kind == BRDF_HALF ? 180.0 : turns ? 360.0 : 90.0;
+    double span = kind == BRDF_HALF ? 180.0 : turns ? 360.0 : 90.0;
     if (count < 1)
-        return failed(err, ERR_FORMAT, "%s: %s has no places", d->name, what);
+        return failed(err, ERR_FORMAT, "%s: %s has no places", where, what);
     for (int i = 0; i < count; i++) {
-        if (!(at[i] >= low && at[i] <= high))
-            return failed(err, ERR_FORMAT, "%s: %s %g is not in [%g, %g] degrees", d->name, what,
-                          at[i], low, high);
-        if (i > 0 && !(at[i] > at[i - 1]))
-            return failed(err, ERR_FORMAT, "%s: %s %g does not ascend from %g", d->name, what,
-                          at[i], at[i - 1]);
+        if (!(deg[i] >= low && deg[i] <= high))
+            return failed(err, ERR_FORMAT, "%s: %s %g is not in [%g, %g] degrees", where, what,
+                          deg[i], low, high);
+        if (i > 0 && !(deg[i] > deg[i - 1]))
+            return failed(err, ERR_FORMAT, "%s: found %g after %g, expected ascending %s", where,
+                          deg[i], deg[i - 1], what);
     }
-    if (at[0] > 180.0)
+    if (deg[0] > 180.0)
         return failed(err, ERR_FORMAT, "%s: %s begins at %g, at most 180 degrees were expected",
-                      d->name, what, at[0]);
-    if (at[count - 1] - at[0] > span + SAME)
-        return failed(err, ERR_FORMAT, "%s: %s spans %g degrees, at most %g were expected", d->name,
-                      what, at[count - 1] - at[0], span);
+                      where, what, deg[0]);
+    if (deg[count - 1] - deg[0] > span + SAME)
+        return failed(err, ERR_FORMAT, "%s: %s spans %g degrees, at most %g were expected", where,
+                      what, deg[count - 1] - deg[0], span);
     return true;
 }
 
@@ -95,7 +94,7 @@ static bool check_places(const brdf_data *d, int axis, lux_error *err)
 static bool make_axis(const brdf_data *d, int axis, arena *a, arena *scratch, table_axis *out,
                       int **from, lux_error *err)
 {
-    if (!check_places(d, axis, err))
+    if (!brdf_check_places(d->name, d->kind, axis, d->deg[axis], d->counts[axis], err))
         return false;
     size_t most = 2 * (size_t)d->counts[axis] + 2;
     making m    = { .at = arena_array(a, float, most, err) };

@@ -85,8 +85,8 @@ static inline void vbrdf_blend(const brdf *b, const vbrdf_place *p, vfloat out[4
 vfloat vbrdf_of_nodes(const brdf *b, const float *values, int every, vtable_place theta,
                       vtable_place phi);
 
-/* How often a direction is drawn by the cosine alone, if the table has anything at all; and wi of
- * each lane, which may be below the horizon. */
+/* wi of each lane, which may be below the horizon: drawn from the cells, now and then by the cosine
+ * alone. */
 vvec3 vbrdf_draw(const brdf *b, const vvec3 *wo, vfloat u, vfloat v, vfloat pick);
 
 /* The density of that, 1/sr. */
@@ -98,6 +98,10 @@ bool brdf_integrate(brdf *b, arena *a, const char *name, notices *n, lux_error *
 /* Weights of the cells of one node, thetas * phis, and its albedo: in brdf_half.c for half tables.
  */
 void brdf_half_node(const brdf *b, int node, double *cells, double rgb[3]);
+
+/* Whether an axis is as brdf_data wants it; else false with *err, which `where` begins. */
+bool brdf_check_places(const char *where, brdf_kind kind, int axis, const double *deg, int count,
+                       lux_error *err);
 
 /* The readers. The text ends in a NUL. */
 const brdf *brdf_read_text(arena *a, const char *path, const char *text, size_t size, notices *n,

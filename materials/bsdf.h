@@ -35,7 +35,8 @@ typedef struct bsdf_figures {
     double normal_reflectance[2]; /* of light square to it, into the whole hemisphere */
     double normal_transmittance[2];
     double most;        /* the file's largest reflectance plus transmittance of any incidence */
-    double reciprocity; /* mean |f(a, b) - f(b, a)| over the mean f, both ways through and back */
+    double reciprocity; /* mean |f(a, b) - f(b, a)| over the mean f, through and reflected, of 64
+                           directions and their opposites */
     double scale;       /* (0, 1]: what all of it was multiplied by, so that `most` is 1 */
 } bsdf_figures;
 const bsdf_figures *bsdf_figure(const bsdf *b);

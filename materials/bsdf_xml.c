@@ -146,7 +146,7 @@ static void on_text(void *user, const char *text, int length)
 }
 
 /* The text of the element that ends, without the spaces around it. */
-static char *element_text(xml_work *w)
+static const char *element_text(xml_work *w)
 {
     static const char spaces[] = " \t\r\n";
     char *text                 = w->text + w->begin;
@@ -267,6 +267,27 @@ static void block_ends(xml_work *w)
         *to = w->block;
 }
 
+/* Of an element within a block; true if its text is to stay. */
+static bool block_said(xml_work *w, const char *name, const char *text)
+{
+    if (strcmp(name, "WavelengthDataDirection") == 0) {
+        direction_said(w, text);
+    } else if (strcmp(name, "ColumnAngleBasis") == 0) {
+        snprintf(w->block.column, sizeof w->block.column, "%s", text);
+    } else if (strcmp(name, "RowAngleBasis") == 0) {
+        snprintf(w->block.row, sizeof w->block.row, "%s", text);
+    } else if (strcmp(name, "AngleBasis") == 0) {
+        snprintf(w->block.basis, sizeof w->block.basis, "%s", text);
+    } else if (strcmp(name, "ScatteringDataType") == 0) {
+        type_said(w, text);
+    } else if (strcmp(name, "ScatteringData") == 0 && w->visible) {
+        w->block.text      = w->text + w->begin;
+        w->block.text_line = w->text_line;
+        return true;
+    }
+    return false;
+}
+
 static void on_end(void *user, const char *qualified)
 {
     xml_work *w      = user;
@@ -274,35 +295,22 @@ static void on_end(void *user, const char *qualified)
     if (w->stopped)
         return;
     w->depth--;
-    char *text = w->listening ? element_text(w) : NULL;
-    bool keep  = false;
-    if (strcmp(name, "AngleBasis") == 0 && w->in_bases) {
+    const char *text = w->listening ? element_text(w) : NULL;
+    bool keep        = false;
+    if (strcmp(name, "AngleBasis") == 0 && w->in_bases)
         basis_ends(w);
-    } else if (strcmp(name, "WavelengthDataBlock") == 0) {
+    else if (strcmp(name, "WavelengthDataBlock") == 0)
         block_ends(w);
-    } else if (text && strcmp(name, "IncidentDataStructure") == 0) {
+    else if (text && w->in_block)
+        keep = block_said(w, name, text);
+    else if (text && strcmp(name, "IncidentDataStructure") == 0)
         structure_said(w, text);
-    } else if (text && strcmp(name, "AngleBasisName") == 0) {
-        snprintf(w->basis, sizeof w->basis, "%s", text);
-    } else if (text && strcmp(name, "Wavelength") == 0) {
+    else if (text && strcmp(name, "Wavelength") == 0)
         wavelength_said(w, text);
-    } else if (text && w->in_bases) {
+    else if (text && strcmp(name, "AngleBasisName") == 0)
+        snprintf(w->basis, sizeof w->basis, "%s", text);
+    else if (text && w->in_bases)
         angle_said(w, name, text);
-    } else if (text && strcmp(name, "WavelengthDataDirection") == 0) {
-        direction_said(w, text);
-    } else if (text && strcmp(name, "ColumnAngleBasis") == 0) {
-        snprintf(w->block.column, sizeof w->block.column, "%s", text);
-    } else if (text && strcmp(name, "RowAngleBasis") == 0) {
-        snprintf(w->block.row, sizeof w->block.row, "%s", text);
-    } else if (text && strcmp(name, "AngleBasis") == 0) {
-        snprintf(w->block.basis, sizeof w->block.basis, "%s", text);
-    } else if (text && strcmp(name, "ScatteringDataType") == 0) {
-        type_said(w, text);
-    } else if (text && strcmp(name, "ScatteringData") == 0 && w->in_block && w->visible) {
-        w->block.text      = w->text + w->begin;
-        w->block.text_line = w->text_line;
-        keep               = true;
-    }
     w->used      = keep ? w->used + 1 : w->begin;
     w->begin     = w->used;
     w->listening = false;

@@ -143,7 +143,7 @@ static vgloss_parts parts_of(const vgloss *g, const vgloss_side *o)
     return p;
 }
 
-/* The lanes that are not lost below the horizon, and their wi. */
+/* The lanes whose facets do not send them below the horizon, and their wi. */
 static vmask draw(const vgloss *g, const vgloss_parts *p, const vshading *s, vfloat cosine,
                   const vfloat uv[2], vfloat pick, vvec3 *out)
 {
@@ -170,7 +170,7 @@ static vmask draw(const vgloss *g, const vgloss_parts *p, const vshading *s, vfl
     vfloat z    = vselect(through, -wi.z, wi.z);
     *out        = vadd(vscale(s->n, z), vadd(vscale(x, wi.x), vscale(y, wi.y)));
     vmask below = vdot(*out, s->n) < 0.0f;
-    return p->any & (wi.z > 0.0f) & ((below & through) | ~(below | through));
+    return p->any & ((below & through) | ~(below | through));
 }
 
 /* ---- f and pdf --------------------------------------------------------------------------------

@@ -34,7 +34,8 @@ typedef enum alpha_mode { ALPHA_OPAQUE, ALPHA_MASK, ALPHA_BLEND } alpha_mode;
 
 /* Which of the texture's channels is meant is glTF's affair: color RGB, alpha A of `base`;
  * roughness G and metallic B of `surface`; transmission R; specular_weight A; normal RGB, of which
- * 0 ... 1 is -1 ... 1, x along u and y against v. */
+ * 0 ... 1 is -1 ... 1, x along u' and y against v': bumps are turned and mirrored with their
+ * picture. Shares are [0, 1] and colours >= 0 whatever the pictures hold. */
 typedef struct material_textures {
     texture_slot base, surface, emission, transmission, specular_weight, specular_color, normal;
     float normal_scale; /* of the normal map's x and y */

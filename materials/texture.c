@@ -18,6 +18,7 @@
 #include "core/packet_math.h"
 
 #include <stdio.h>
+#include <string.h>
 
 enum { MOST_A_SIDE = 32768, MOST_LEVELS = 16 };
 
@@ -80,17 +81,17 @@ static inline vpatch patch_at(const texture *t, vint number, vfloat u, vfloat v)
     return (vpatch){ upper, upper + stride, x - vto_float(column), y - vto_float(line) };
 }
 
-static inline row4 patch_row(const float *texels, const vpatch *p, int i)
+static inline float4 patch_row(const float *texels, const vpatch *p, int i)
 {
     int32_t upper = lane(p->upper, i), lower = lane(p->lower, i);
-    float x  = lane(p->x, i);
-    row4 top = row_lerp(row_load(texels, upper), row_load(texels, upper + 1), x);
-    row4 low = row_lerp(row_load(texels, lower), row_load(texels, lower + 1), x);
-    return row_lerp(top, low, lane(p->y, i));
+    float x    = lane(p->x, i);
+    float4 top = float4_lerp(float4_at(texels, upper), float4_at(texels, upper + 1), x);
+    float4 low = float4_lerp(float4_at(texels, lower), float4_at(texels, lower + 1), x);
+    return float4_lerp(top, low, lane(p->y, i));
 }
 
 static inline void blended_rows(const texture *t, vfloat u, vfloat v, vfloat width, vmask active,
-                                row4 rows[LANES])
+                                float4 rows[LANES])
 {
     /* One texel of the full picture is level 0, two are level 1; a width of NaN is level 0 */
     vfloat wide  = width * t->size;
@@ -107,29 +108,29 @@ static inline void blended_rows(const texture *t, vfloat u, vfloat v, vfloat wid
         return;
     vpatch far = patch_at(t, below + 1, u, v);
     for (int i = 0; i < LANES; i++)
-        rows[i] = row_lerp(rows[i], patch_row(t->texels, &far, i), lane(rest, i));
+        rows[i] = float4_lerp(rows[i], patch_row(t->texels, &far, i), lane(rest, i));
 }
 
-static inline void nearest_rows(const texture *t, vfloat u, vfloat v, row4 rows[LANES])
+static inline void nearest_rows(const texture *t, vfloat u, vfloat v, float4 rows[LANES])
 {
     const level *all = &t->levels[0];
     vint column      = vto_int(vmin(u * all->width, vsplat(all->width - 1.0f)));
     vint line        = vto_int(vmin(v * all->height, vsplat(all->height - 1.0f)));
     vint texel       = (line + 1) * all->stride + column + 1;
     for (int i = 0; i < LANES; i++)
-        rows[i] = row_load(t->texels, lane(texel, i));
+        rows[i] = float4_at(t->texels, lane(texel, i));
 }
 
 vtexel vtexture_lookup(const texture *t, vfloat u, vfloat v, vfloat width, vmask active)
 {
-    row4 rows[LANES];
+    float4 rows[LANES];
     vfloat of[4];
     vfloat x = fold(t->wrap_u, u), y = fold(t->wrap_v, v);
     if (t->nearest)
         nearest_rows(t, x, y, rows);
     else
         blended_rows(t, x, y, width, active, rows);
-    vturn_rows(rows, of);
+    vturn4(rows, of);
     return (vtexel){ vkeep(active, of[0]), vkeep(active, of[1]), vkeep(active, of[2]),
                      vkeep(active, of[3]) };
 }
@@ -161,29 +162,38 @@ typedef struct picture {
     double *means;
 } picture;
 
-static double value_at(const picture *p, size_t i)
+static void add_line(const picture *p, int line, double weight, double *sum)
 {
-    return p->given ? (double)p->given[i] : p->means[i];
+    size_t length = (size_t)p->width * 4, first = (size_t)line * length;
+    if (p->given)
+        for (size_t i = 0; i < length; i++)
+            sum[i] += weight * (double)p->given[first + i];
+    else
+        for (size_t i = 0; i < length; i++)
+            sum[i] += weight * p->means[first + i];
+}
+
+static void clear_line(const picture *p, double *sum)
+{
+    memset(sum, 0, (size_t)p->width * 4 * sizeof *sum);
 }
 
 /* The next level, into means; sum holds one line of p. */
 static void shrink(const picture *p, double *sum, double *means)
 {
-    size_t length = (size_t)p->width * 4;
     int width = half_of(p->width), height = half_of(p->height);
     for (int y = 0; y < height; y++) {
         cover lines = cover_of(p->height, y);
-        for (size_t i = 0; i < length; i++) {
-            sum[i] = 0.0;
-            for (int k = 0; k < lines.count; k++)
-                sum[i] += lines.weight[k] * value_at(p, (size_t)(lines.first + k) * length + i);
-        }
+        clear_line(p, sum);
+        for (int k = 0; k < lines.count; k++)
+            add_line(p, lines.first + k, lines.weight[k], sum);
         for (int x = 0; x < width; x++) {
-            cover columns = cover_of(p->width, x);
+            cover columns      = cover_of(p->width, x);
+            const double *from = sum + 4 * (size_t)columns.first;
             for (int c = 0; c < 4; c++, means++) {
                 *means = 0.0;
                 for (int k = 0; k < columns.count; k++)
-                    *means += columns.weight[k] * sum[4 * (columns.first + k) + c];
+                    *means += columns.weight[k] * from[4 * k + c];
             }
         }
     }
@@ -192,21 +202,24 @@ static void shrink(const picture *p, double *sum, double *means)
 /* Which of n texels stands at i, -1 ... n: those at the ends are the frame. */
 static int framed(texture_wrap wrap, int i, int n)
 {
-    if (wrap == WRAP_REPEAT)
-        return (i + n) % n;
-    return i < 0 ? 0 : i < n ? i : n - 1;
+    bool repeats = wrap == WRAP_REPEAT;
+    if (i < 0)
+        return repeats ? n - 1 : 0;
+    return i < n ? i : repeats ? 0 : n - 1;
 }
 
 /* With its frame. No texel is -0: so a blend of them is not either, whichever way it is made. */
-static void store(const texture *t, const picture *p, float *to)
+static void store(const texture *t, const picture *p, double *sum, float *to)
 {
-    for (int y = -1; y <= p->height; y++)
+    for (int y = -1; y <= p->height; y++) {
+        clear_line(p, sum);
+        add_line(p, framed(t->wrap_v, y, p->height), 1.0, sum);
         for (int x = -1; x <= p->width; x++) {
-            size_t line   = (size_t)framed(t->wrap_v, y, p->height);
-            size_t column = (size_t)framed(t->wrap_u, x, p->width);
-            for (size_t c = 0; c < 4; c++)
-                *to++ = (float)value_at(p, (line * (size_t)p->width + column) * 4 + c) + 0.0f;
+            const double *from = sum + 4 * (size_t)framed(t->wrap_u, x, p->width);
+            for (int c = 0; c < 4; c++)
+                *to++ = (float)from[c] + 0.0f;
         }
+    }
 }
 
 /* Sets levels, last and size; returns how many texels there are, frames and all: fewer than 2^31
@@ -231,15 +244,17 @@ static size_t lay_out(texture *t, int width, int height)
 
 static bool fill(texture *t, const texture_desc *d, arena *scratch, lux_error *err)
 {
-    size_t next   = (size_t)half_of(d->width) * (size_t)half_of(d->height) * 4;
+    int width = half_of(d->width), height = half_of(d->height);
+    size_t next   = (size_t)width * (size_t)height * 4;
+    size_t after  = (size_t)half_of(width) * (size_t)half_of(height) * 4;
     double *sum   = arena_array(scratch, double, (size_t)d->width * 4, err);
     double *one   = sum ? arena_array(scratch, double, next, err) : NULL;
-    double *other = one ? arena_array(scratch, double, next, err) : NULL;
+    double *other = one ? arena_array(scratch, double, after, err) : NULL;
     if (!other)
         return false;
     picture p = { d->width, d->height, d->rgba, NULL };
     for (int i = 0; i <= (int)t->last; i++) {
-        store(t, &p, t->texels + 4 * (size_t)t->levels[i].first);
+        store(t, &p, sum, t->texels + 4 * (size_t)t->levels[i].first);
         double *smaller = p.means == one ? other : one;
         shrink(&p, sum, smaller);
         p = (picture){ half_of(p.width), half_of(p.height), NULL, smaller };

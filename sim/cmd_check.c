@@ -117,6 +117,9 @@ static void print_notes(const scene_material *m)
     if (m->file) {
         fputs("   of ", stdout);
         print_words(stdout, m->file, 0, INT_MAX);
+        printf(", reciprocal to %.1f %%", 100.0 * m->reciprocity);
+        if (m->scaled_by < 1.0)
+            printf(", scaled by %.4g", m->scaled_by);
     }
     if (m->textured)
         printf("   textured");

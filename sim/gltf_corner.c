@@ -45,13 +45,26 @@ static bool count_values(reader *r, const source_accessor *a, const char *pointe
     return true;
 }
 
+static bool all_finite(const reader *r, source_index accessor, const float *values,
+                       const char *pointer, lux_error *err)
+{
+    const source_accessor *a = &r->source->accessors[accessor];
+    size_t width             = (size_t)a->width;
+    for (size_t i = 0; i < width * a->count; i++)
+        if (!isfinite(values[i]))
+            return failed(err, ERR_FORMAT, "%s: %s: element %zu of accessor %d is not finite",
+                          r->file->path, pointer, i / width, accessor);
+    return true;
+}
+
 /* An attribute of a primitive, read once for a mesh whose primitives share it. */
 static const float *attribute(corner_data *c, uint32_t number, const char *name,
-                              source_index accessor, int width, lux_error *err)
+                              source_index accessor, lux_error *err)
 {
     reader *r                 = c->r;
     const source *s           = r->source;
     const source_primitive *p = &s->meshes[c->mesh].primitives[number];
+    const int width           = *name == 'N' ? 3 : 2; /* a normal, or coordinates */
     char at[100];
     snprintf(at, sizeof at, "/meshes/%u/primitives/%u/attributes/%s", c->mesh, number, name);
     if (!index_valid(r, accessor, s->accessor_count, "accessor", err, "%s", at))
@@ -62,39 +75,26 @@ static const float *attribute(corner_data *c, uint32_t number, const char *name,
         return c->values[accessor];
     if (!count_values(r, a, at, err))
         return NULL;
-    c->values[accessor]  = accessor_attribute(r, &c->own, accessor, width, count, at, err);
-    c->read_in[accessor] = c->mesh + 1;
-    return c->values[accessor];
-}
-
-/* Texture coordinates, which are finite. */
-static const float *coordinates(corner_data *c, uint32_t number, int set, lux_error *err)
-{
-    static const char *const names[] = { "TEXCOORD_0", "TEXCOORD_1" };
-    const source_primitive *p        = &c->r->source->meshes[c->mesh].primitives[number];
-    const float *uv                  = attribute(c, number, names[set], p->texcoord[set], 2, err);
-    size_t count                     = uv ? c->r->source->accessors[p->texcoord[set]].count : 0;
-    for (size_t i = 0; i < 2 * count; i++)
-        if (!isfinite(uv[i]))
-            return failed(err, ERR_FORMAT,
-                          "%s: /meshes/%u/primitives/%u/attributes/%s: element %zu of accessor %d "
-                          "is not finite",
-                          c->r->file->path, c->mesh, number, names[set], i / 2, p->texcoord[set]);
-    return uv;
+    const float *values = accessor_attribute(r, &c->own, accessor, width, count, at, err);
+    if (!values || (width == 2 && !all_finite(r, accessor, values, at, err)))
+        return NULL;
+    c->read_in[accessor]       = c->mesh + 1;
+    return c->values[accessor] = values;
 }
 
 bool corner_primitive(corner_data *c, uint32_t number, vertex_data *out, lux_error *err)
 {
-    const source_primitive *p = &c->r->source->meshes[c->mesh].primitives[number];
-    bool missing              = false;
-    *out                      = (vertex_data){ 0 };
+    static const char *const names[] = { "TEXCOORD_0", "TEXCOORD_1" };
+    const source_primitive *p        = &c->r->source->meshes[c->mesh].primitives[number];
+    bool missing                     = false;
+    *out                             = (vertex_data){ 0 };
     for (int k = 0; k < 2; k++) {
         if (!slots_use_set(c->r, p->material, k))
             continue;
         missing = missing || p->texcoord[k] < 0;
         if (p->texcoord[k] < 0)
             continue;
-        out->texcoord[k] = coordinates(c, number, k, err);
+        out->texcoord[k] = attribute(c, number, names[k], p->texcoord[k], err);
         if (!out->texcoord[k])
             return false;
         if (!c->texcoord[k])
@@ -105,7 +105,7 @@ bool corner_primitive(corner_data *c, uint32_t number, vertex_data *out, lux_err
     if (missing)
         tally_add(c->r, TALLY_NO_TEXCOORD, "/meshes/%u/primitives/%u", c->mesh, number);
     if (p->normal >= 0)
-        out->normals = attribute(c, number, "NORMAL", p->normal, 3, err);
+        out->normals = attribute(c, number, "NORMAL", p->normal, err);
     return p->normal < 0 || out->normals;
 }
 

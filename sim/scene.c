@@ -249,5 +249,6 @@ const scene *scene_new(arena *a, const study *from, const scene_options *o, noti
     s->light_info = b.light_info.items;
     say_what_lights_are(s);
     s->small_patches = scene_small_patches(s, n);
+    scene_find_focus(s, n);
     return s;
 }

@@ -19,6 +19,8 @@ typedef struct scene_material {
     const char *name;     /* "room: walls" for those of the room */
     const char *kind;     /* material_type.name */
     const char *file;     /* of a measured table; NULL */
+    double reciprocity;   /* of a table: mean of |f(a, b) - f(b, a)| by f; else 0 */
+    double scaled_by;     /* of a table: (0, 1], so that it gives back no more than it gets */
     vec3 reflectance;     /* of diffuse light, on the front side */
     vec3 transmittance;   /* of diffuse light, straight and scattered */
     vec3 emission;        /* cd/m^2 */
@@ -114,6 +116,7 @@ typedef struct scene {
     double glow_watts; /* W, not dimmed, of glowing surfaces that are no emitters: they have
                           textures of emission or alpha, and only rays find them */
     uint64_t texture_bytes;
+    bool mirrors_hide; /* light of small lamps that comes by way of mirrors is not found */
     int small_patches; /* lamps that light a patch too small for samples to find reliably */
 } scene;
 

@@ -193,4 +193,8 @@ const scene_web *study_web(scene_build *b, const char *path, study_where where);
  * (scene_chance.c). */
 int scene_small_patches(const scene *s, notices *n);
 
+/* Finds whether mirrors send on light that no sampler reaches, of which the user is told
+ * (scene_focus.c). */
+void scene_find_focus(scene *s, notices *n);
+
 #endif

@@ -12,11 +12,14 @@
  *     metallic = 0, specular black           matt, reflectance = base colour
  *     metallic = 0, roughness = 1,           matt, reflectance = base colour: a wall paint, as
  *       plain specular, ior 1.4 ... 1.6      modelling programs export it
- *     all else                               gloss: GGX of roughness^2; of metal with base colour
- *                                            as F0; else F0 = ((n-1)/(n+1))^2 * specular over a
- *                                            base that reflects base colour * (1 - clear), and lets
- *                                            base colour * clear through, scattered. What it
- *                                            reflects in all: lux4 check prints it
+ *     metallic = 1, base colour black        matt, black: no metal is, but what only glows may be
+ *                                            written so, and is left without gloss
+ *     all else                               gloss (materials/gloss.c): metal with base colour as
+ *                                            F0; else F0 = ((n-1)/(n+1))^2 * specular over a matt
+ *                                            base that gives back base colour * (1 - clear) of
+ *                                            what enters, and lets base colour * clear through,
+ *                                            blurred. What all of it reflects of diffuse light:
+ *                                            lux4 check prints it
  *
  *     alphaMode MASK, BLEND                  holes: the share 1 - alpha is not there
  *     emissiveFactor * strength              glows with so many cd/m^2 on both sides
@@ -65,7 +68,7 @@ bool gltf_material_is_pane(const gltf_material *m)
 static bool is_matt(const gltf_material *m)
 {
     const material_textures *t = textures_of(m);
-    if (m->unlit)
+    if (m->unlit || (m->metallic == 1.0f && is_black(m->base_color) && !t->surface.texture))
         return true;
     if (m->metallic > 0.0f || clearness(m) > 0.0f)
         return false;
@@ -176,7 +179,8 @@ static const material *make_gloss(scene_build *b, const material_source *s)
                                .specular_color = m->specular_color,
                                .extra          = material_extra_of(m) };
     tell(b, s, clearness(m) > 0.0f && m->roughness < smooth,
-         "clear in part: the light that passes it is taken as scattered");
+         "smooth and clear in part: the light of lamps that passes it is hard to find, and "
+         "results are slow to settle");
     return material_gloss(b->a, &d, b->err);
 }
 

@@ -94,6 +94,24 @@ static const void *table_of(scene_build *b, const study_material *m)
     return *table;
 }
 
+static const material *make_glazing(scene_build *b, const bsdf *data, const bsdf_desc *d,
+                                    scene_material *info)
+{
+    const bsdf_figures *f = bsdf_figure(data);
+    info->reciprocity     = f->reciprocity;
+    info->scaled_by       = f->scale;
+    return material_bsdf(b->a, d, b->err);
+}
+
+static const material *make_table(scene_build *b, const brdf *table, const brdf_desc *d,
+                                  scene_material *info)
+{
+    const brdf_figures *f = brdf_figures_of(table);
+    info->reciprocity     = (double)f->reciprocity_mean;
+    info->scaled_by       = (double)f->scale_least;
+    return material_brdf(b->a, d, b->err);
+}
+
 static const material *make_measured(scene_build *b, const material_source *s,
                                      const material_extra *extra, scene_material *info)
 {
@@ -104,12 +122,12 @@ static const material *make_measured(scene_build *b, const material_source *s,
     if (!table)
         return NULL;
     if (m->surface == SURFACE_BSDF)
-        return material_bsdf(
-            b->a,
+        return make_glazing(
+            b, table,
             &(bsdf_desc){
                 .data = table, .up = up, .front_outside = m->front_outside, .extra = *extra },
-            b->err);
-    return material_brdf(b->a, &(brdf_desc){ .table = table, .up = up, .extra = *extra }, b->err);
+            info);
+    return make_table(b, table, &(brdf_desc){ .table = table, .up = up, .extra = *extra }, info);
 }
 
 const material *material_of_study(scene_build *b, const material_source *s, scene_material *info)

@@ -60,10 +60,10 @@ void material_check_reciprocity(const material *m, double tolerance)
  */
 
 /* [0, 1), its ends included, as samplers give it. */
-static float random_unit(random_numbers *r)
+static double random_unit(random_numbers *r)
 {
     double kind = next(r), u = next(r);
-    return kind < 0.05 ? 0.0f : kind < 0.1 ? 0x1.fffffep-1f : (float)(u * 0x1.fffffep-1);
+    return kind < 0.05 ? 0.0 : kind < 0.1 ? 0x1.fffffep-1 : u * 0x1.fffffep-1;
 }
 
 static dir plus(dir a, double t, dir b)

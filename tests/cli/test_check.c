@@ -1,4 +1,5 @@
 /* tests/cli/test_check.c -- lux4 check: what it says of lights, groups, glow and grids. */
+#include "tests/box_gltf.h"
 #include "tests/folder.h"
 #include "tests/program.h"
 #include "tests/test.h"
@@ -143,9 +144,75 @@ TEST(sensors_inside_furniture_are_counted)
     folder_free(folder);
 }
 
+/* Each kind says what it reflects: one number where that is grey, three else. */
+TEST(materials_are_listed_with_what_they_do)
+{
+    char *folder     = folder_of_check();
+    program_result r = { 0 };
+    folder_write(
+        folder, "study.yaml",
+        "lux4: 1\nroom: {size: [4, 3, 2.5], reflectance: {ceiling: 0.7, walls: [0.5, 0.25, "
+        "0.125], floor: 0.2}}\nscene: model.gltf\nmaterials:\n"
+        "  - {match: 'room: ceiling', mirror: 0.75}\n"
+        "  - {match: 'room: floor', transmittance: 0.8}\n");
+    LUX4(folder, 0, &r, "check", "study.yaml");
+    assert_says(&r, "  room: ceiling          mirror                0.750   (by the study)\n");
+    assert_says(&r, "  room: walls            diffuse   0.500 0.250 0.125\n");
+    assert_says(&r, "  room: floor            pane                  0.");
+    assert_says(&r, "   lets through 0.");
+    assert_says(&r,
+                "  glow                   diffuse               0.000   glows, 50 50 50 cd/m2\n");
+    program_free(&r);
+    folder_free(folder);
+}
+
+#define FLAT_BRDF                                                                                  \
+    "lux4 brdf 1\nparameters isotropic\ntheta_in 0 90\ntheta_out 0 90\ndelta_phi 0 180\nvalues\n"  \
+    "0.0795775 0.0795775 0.0795775 0.0795775 0.0795775 0.0795775 0.0795775 0.0795775\n"
+
+/* One value everywhere, 0.25 / pi: reciprocal, and nothing to be scaled. */
+TEST(tables_are_listed_with_their_figures)
+{
+    char *folder     = folder_of_check();
+    program_result r = { 0 };
+    folder_write(folder, "flat.brdf", FLAT_BRDF);
+    folder_write(folder, "study.yaml",
+                 "lux4: 1\nroom: {size: [4, 3, 2.5], reflectance: 0.5}\nscene: model.gltf\n"
+                 "materials: [{match: 'room: walls', brdf: flat.brdf}]\n");
+    LUX4(folder, 0, &r, "check", "study.yaml");
+    assert_says(&r, "  room: walls            brdf                  0.250   of ");
+    assert_says(&r, "flat.brdf, reciprocal to 0.0 %   (by the study)\n");
+    program_free(&r);
+    folder_free(folder);
+}
+
+TEST(boxes_of_glass_are_told_of_with_the_place_in_the_study)
+{
+    char *folder        = folder_of_check();
+    program_result r    = { 0 };
+    const double low[3] = { 1, 1, 0.5 }, high[3] = { 2, 1.006, 1.5 };
+    box_gltf_write(folder, "model.gltf", low, high, 0.0);
+    folder_write(folder, "study.yaml",
+                 "lux4: 1\nroom: {size: [4, 3, 2.5], reflectance: 0.5}\nscene: model.gltf\n"
+                 "materials:\n  - {match: Side, transmittance: 0.8}\n");
+    LUX4(folder, 0, &r, "check", "study.yaml");
+    assert_non_null(strstr(r.err, "study.yaml:5:5: material \"Side\" has closed boxes of glass"));
+    folder_write(folder, "study.yaml",
+                 "lux4: 1\nroom: {size: [4, 3, 2.5], reflectance: 0.5}\nscene: model.gltf\n"
+                 "materials:\n  - {match: Side, transmittance: 0.8, pane: box}\n");
+    LUX4(folder, 0, &r, "check", "study.yaml");
+    assert_null(strstr(r.err, "closed boxes"));
+    assert_says(&r, "   closed boxes   (by the study)\n");
+    program_free(&r);
+    folder_free(folder);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(materials_are_listed_with_what_they_do),
+        cmocka_unit_test(tables_are_listed_with_their_figures),
+        cmocka_unit_test(boxes_of_glass_are_told_of_with_the_place_in_the_study),
         cmocka_unit_test(lights_are_listed_with_what_is_not_plain),
         cmocka_unit_test(a_schedule_tells_what_glows_beside_its_rows),
         cmocka_unit_test(grids_are_listed_with_how_they_are_laid),

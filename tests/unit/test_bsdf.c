@@ -91,7 +91,7 @@ TEST(a_file_s_own_basis_is_taken)
     assert_non_null(klems_make(&k, "mine", none, 2));
     const klems_ring many[] = { { 0, 30, 2 }, { 30, 90, 1999 } };
     assert_non_null(klems_make(&k, "mine", many, 2));
-    const klems_ring nan[] = { { 0, NAN, 2 }, { NAN, 90, 4 } };
+    const klems_ring nan[] = { { 0, (double)NAN, 2 }, { (double)NAN, 90, 4 } };
     assert_non_null(klems_make(&k, "mine", nan, 2));
 }
 

@@ -89,6 +89,52 @@ TEST(a_luminaire_with_an_opening_has_a_near_field)
     assert_of_luminaire("", "0 0 0");
 }
 
+/* In a white room with one lamp; `measured` is one value everywhere. */
+TEST(materials_call_for_effects)
+{
+#define LIT ROOM "lights: [" POINT "]\nmaterials: [{match: 'room: floor', "
+    assert_effects("interreflection mirrors ", false, false, LIT "mirror: 0.5}]\n");
+    assert_effects("", true, false, LIT "mirror: 0.5}]\n");
+    assert_effects("interreflection ", false, false,
+                   LIT "reflectance: 0.5, specular: 0.1, exponent: 9}]\n");
+    assert_effects("interreflection mirrors tinted-shadows ", false, false,
+                   LIT "transmittance: 0.5}]\n");
+    assert_effects("tinted-shadows ", true, false, LIT "transmittance: 0.5}]\n");
+
+    char *folder = folder_new(), text[600];
+    folder_write(folder, "flat.brdf",
+                 "lux4 brdf 1\nparameters isotropic\ntheta_in 0\ntheta_out 0\ndelta_phi 0\n"
+                 "values 0.08\n");
+    snprintf(text, sizeof text, LIT "brdf: %s/flat.brdf}]\n", folder);
+    assert_effects("interreflection measured-brdf ", false, false, text);
+    assert_effects("", true, false, text);
+    folder_free(folder);
+}
+
+/* A solid of glass with holes in it and a glowing sheet, from a glTF file. */
+TEST(solids_and_holes_call_for_effects)
+{
+    char *folder = folder_new(), text[1200];
+    folder_write(folder, "model.gltf",
+                 "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{\"alphaMode\":\"MASK\","
+                 "\"pbrMetallicRoughness\":{\"metallicFactor\":0},\"extensions\":{"
+                 "\"KHR_materials_transmission\":{\"transmissionFactor\":1},"
+                 "\"KHR_materials_volume\":{\"thicknessFactor\":1}}}],"
+                 "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
+                 "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAACAPwAAgD8AAAAA\"}],"
+                 "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+                 "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":"
+                 "\"VEC3\",\"min\":[0,0,0],\"max\":[1,1,0]}],"
+                 "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":0}]}],"
+                 "\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}]}");
+    snprintf(text, sizeof text,
+             "lux4: 1\nscene: %s/model.gltf\nlights: [{type: point, at: [2, 1, 2], lumens: 1}]\n",
+             folder);
+    assert_effects("shadows interreflection mirrors refraction textures tinted-shadows ", false,
+                   true, text);
+    folder_free(folder);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -97,6 +143,8 @@ int main(void)
         cmocka_unit_test(areas_and_colours_are_told),
         cmocka_unit_test(many_lamps_are_told_where_it_matters),
         cmocka_unit_test(a_luminaire_with_an_opening_has_a_near_field),
+        cmocka_unit_test(materials_call_for_effects),
+        cmocka_unit_test(solids_and_holes_call_for_effects),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -341,6 +341,24 @@ TEST(a_webp_that_cannot_be_read_is_replaced)
     assert_int_equal(said.count, 0);
 }
 
+/* One pixel of Radiance's format: 0.5, 0.5, 0.25 times 2^2. */
+TEST(only_what_glows_may_be_above_1)
+{
+    static const char hdr[] = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x80\x40\x82";
+    static const double glows[4] = { 2, 2, 1, 1 }, reflects[4] = { 1, 1, 1, 1 };
+    const gltf *g = read_square(
+        &plain_square, ",\"TEXCOORD_0\":2",
+        text_of(&memory,
+                "\"images\":[{\"uri\":\"%s\"}],\"textures\":[{\"source\":0}],\"materials\":[{"
+                "\"emissiveFactor\":[1,1,1],\"emissiveTexture\":{\"index\":0},"
+                "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}}]",
+                data_uri(&memory, hdr, sizeof hdr - 1)));
+    const material_textures *t = textures_of(g, 0);
+    assert_texel(t->emission.texture, 0.5f, 0.5f, glows, 1e-6);
+    assert_texel(t->base.texture, 0.5f, 0.5f, reflects, 1e-6);
+    assert_int_equal(g->texture_count, 2);
+}
+
 /* ---- where they lie ---- */
 
 static texture_slot slot_of(const char *changes)
@@ -758,6 +776,28 @@ TEST(a_file_of_custom_normals_is_read)
     assert_true(some);
 }
 
+/* A red picture in WebP; the picture beside it is blue at that place. */
+TEST(a_webp_is_preferred_to_the_picture_beside_it)
+{
+    FILE *f = fopen("../shared/data/gltf/khronos_validator/ext/EXT_texture_webp/data/image/"
+                    "VP8L_red.webp",
+                    "rb");
+    uint8_t bytes[256];
+    if (!f)
+        skip();
+    size_t size = fread(bytes, 1, sizeof bytes, f);
+    fclose(f);
+    const gltf *g = read_square(
+        &plain_square, ",\"TEXCOORD_0\":2",
+        text_of(&memory,
+                "\"images\":[%s,{\"uri\":\"%s\"}],\"textures\":[{\"source\":0,\"extensions\":{"
+                "\"EXT_texture_webp\":{\"source\":1}}}],\"materials\":[{\"normalTexture\":{"
+                "\"index\":0}}]",
+                picture(), data_uri(&memory, bytes, size)));
+    assert_texel(textures_of(g, 0)->normal.texture, 0.25f, 0.75f, red, 1e-6);
+    assert_int_equal(said.count, 0);
+}
+
 #define GLTF_TEST(name) cmocka_unit_test_teardown(name, forget)
 
 int main(void)
@@ -771,6 +811,7 @@ int main(void)
         GLTF_TEST(pictures_that_nothing_shows_are_not_opened),
         GLTF_TEST(a_texture_without_picture_is_white),
         GLTF_TEST(a_webp_that_cannot_be_read_is_replaced),
+        GLTF_TEST(only_what_glows_may_be_above_1),
         GLTF_TEST(coordinates_are_scaled_then_turned_then_moved),
         GLTF_TEST(the_example_of_the_extension_shows_the_lower_left_quarter),
         GLTF_TEST(a_transform_may_name_another_set),
@@ -790,6 +831,7 @@ int main(void)
         GLTF_TEST(a_file_of_transmission_is_read),
         GLTF_TEST(files_of_index_and_gloss_are_read),
         GLTF_TEST(a_file_of_custom_normals_is_read),
+        GLTF_TEST(a_webp_is_preferred_to_the_picture_beside_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

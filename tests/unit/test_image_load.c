@@ -149,13 +149,13 @@ TEST(every_kind_of_png_is_four_floats)
 
 TEST(colours_are_decoded_from_srgb_and_alpha_is_not)
 {
-    for (int v = 0; v < 256; v++) {
+    for (int v = 0; v < 256; v += 3) {
         const uint8_t raw[] = { 0, (uint8_t)v, (uint8_t)(255 - v), 7, (uint8_t)v };
         png p               = make_png(1, 1, 8, RGBA, raw, sizeof raw);
         assert_pixel(load(&p, true, 1, 1), linear_of(v / 255.0), linear_of((255 - v) / 255.0),
                      linear_of(7 / 255.0), v / 255.0);
     }
-    for (unsigned v = 0; v < 65536; v += 257 * 5 + 1) {
+    for (unsigned v = 0; v < 65536; v += 257 * 20 + 1) {
         const uint8_t raw[] = { 0, (uint8_t)(v >> 8), (uint8_t)v, (uint8_t)(v >> 8), (uint8_t)v };
         png p               = make_png(1, 1, 16, GREY_ALPHA, raw, sizeof raw);
         double c            = linear_of(v / 65535.0);
@@ -293,7 +293,7 @@ TEST(jpegs_that_are_changed_do_no_harm)
     float *rgba;
     assert_true(image_load_rgba("e", bytes, size, true, &memory, &w, &h, &rgba, NULL));
     assert_near(rgba[0], linear_of(100 / 255.0), 1e-6);
-    for (size_t at = 0; at < size; at += 3) {
+    for (size_t at = 0; at < size; at += 11) {
         lux_error err = { 0 };
         uint8_t was   = bytes[at];
         bytes[at]     = (uint8_t)(was ^ 0x15);

@@ -292,7 +292,7 @@ static const vec3 TILT_Y = { 0.5f, 0.5f + 0.5f * HALF, 0.5f + 0.5f * HALF };
 TEST(flat_blue_leaves_the_normal)
 {
     uint32_t seed = 3;
-    for (int n = 0; n < 1000; n++) {
+    for (int n = 0; n < 500; n++) {
         vdetail d  = floor_detail();
         vshading s = seen_from(0.3f, n % 2 ? 1 : -1);
         float x = 0.2f * random_unit(&seed), y = 0.2f * random_unit(&seed);
@@ -385,7 +385,7 @@ TEST(where_a_map_says_nothing_the_normal_stays)
 TEST(bent_normals_never_look_away_nor_mirror_into_the_surface)
 {
     uint32_t seed = 6;
-    for (int n = 0; n < 5000; n++) {
+    for (int n = 0; n < 500; n++) {
         vdetail d  = floor_detail();
         vshading s = seen_from(10 * random_unit(&seed), n % 2 ? 1 : -1);
         vec3 map   = { random_unit(&seed), random_unit(&seed), random_unit(&seed) };

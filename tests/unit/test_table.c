@@ -152,6 +152,98 @@ TEST(an_axis_that_does_not_ascend_is_refused)
     assert_false(table_axis_check(&(table_axis){ bad, 2, true, NAN }, "t", &err));
 }
 
+/* ---- bins, and four values a place ------------------------------------------------------------
+ */
+
+/* x near each place and between, in and beyond the axis: with bins and without, the same to the
+ * bit. */
+static void compare_bins(const table_axis *plain, bool wanted)
+{
+    arena a           = { 0 };
+    lux_error err     = { 0 };
+    table_axis binned = *plain;
+    assert_true(table_axis_bins(&binned, &a, &err));
+    assert_true((binned.bins != NULL) == wanted);
+    float low = plain->at[0] - 1.0f, high = plain->at[plain->count - 1] + 1.0f;
+    for (int i = 0; i < 4000 + 3 * plain->count; i++) {
+        float x = low + (high - low) * (float)i / 4000.0f;
+        if (i >= 4000) {
+            float at = plain->at[(i - 4000) / 3];
+            x        = i % 3 == 0 ? at : nextafterf(at, i % 3 == 1 ? INFINITY : -INFINITY);
+        }
+        vtable_place p = vtable_find(plain, vsplat(x)), q = vtable_find(&binned, vsplat(x));
+        assert_int_equal(lane(p.below, 0), lane(q.below, 0));
+        assert_int_equal(lane(p.above, 0), lane(q.above, 0));
+        assert_true(lane(p.fraction, 0) == lane(q.fraction, 0));
+    }
+    const float wild[] = { NAN, INFINITY, -INFINITY, 3e38f };
+    for (int i = 0; i < 4; i++) {
+        vtable_place q = vtable_find(&binned, vsplat(wild[i]));
+        assert_true(lane(q.below, 0) >= 0 && lane(q.above, 0) < plain->count);
+    }
+    arena_clear(&a);
+}
+
+TEST(bins_find_the_cells_that_a_search_finds)
+{
+    static const float two[] = { 1.0f, 5.0f };
+    float tight[100]; /* each step twice as long as the one before: no bins */
+    for (int i = 0; i < 100; i++)
+        tight[i] = ldexpf(1.0f, i / 4) + (float)(i % 4) * ldexpf(0.25f, i / 4);
+    compare_bins(&open_axis, true);
+    compare_bins(&closed_axis, true);
+    compare_bins(&(table_axis){ two, 2 }, false);
+    compare_bins(&(table_axis){ two, 1 }, false);
+    compare_bins(&(table_axis){ two, 2, true, 6.28318531f }, true);
+    compare_bins(&(table_axis){ tight, 100 }, false);
+}
+
+/* Four values a place of three and four axes: their twin in double, and exact at its places. */
+TEST(four_values_a_place_are_blended_as_one_is)
+{
+    enum { N = 5, M = 7, PLACES = N * M * N * M };
+    static float values[4 * PLACES] __attribute__((aligned(16)));
+    fill(values, 4 * PLACES);
+    const table_axis axes[4] = { closed_axis, open_axis, closed_axis, open_axis };
+    for (int i = 0; i < 3000; i++) {
+        float x[4];
+        fill(x, 4);
+        for (int k = 0; k < 4; k++) {
+            x[k] = (float)(i % (17 + k)) * 0.41f - 1.0f + x[k];
+            if (i % 10 == 0)
+                x[k] = axes[k].at[i / 10 % axes[k].count];
+        }
+        vtable_place p[4];
+        int low[4], high[4];
+        double f[4], four = 0.0, three = 0.0;
+        for (int k = 0; k < 4; k++) {
+            p[k] = vtable_find(&axes[k], x[k] + vto_float(vlane_index() * 0));
+            find_double(&axes[k], (double)x[k], &low[k], &high[k], &f[k]);
+        }
+        for (int c = 0; c < 16; c++) {
+            double weight = 1.0, last = 1.0;
+            int at = 0, at3 = 0;
+            for (int k = 0; k < 4; k++) {
+                bool up = c >> k & 1;
+                last    = up ? f[k] : 1.0 - f[k];
+                at      = at * axes[k].count + (up ? high[k] : low[k]);
+                at3     = k < 3 ? at : at3;
+                weight *= last;
+            }
+            four += weight * (double)values[4 * at + 2];
+            three += weight * (double)values[4 * at3 + 1]; /* the fourth axis adds up to 1 */
+        }
+        vfloat got4[4], got3[4];
+        vtable_fours4(values, axes, p, got4);
+        vtable_fours3(values, axes, p, got3);
+        double tolerance = i % 10 == 0 ? 0.0 : 2e-5; /* four slopes of at most 4 a unit */
+        for (int l = 0; l < LANES; l++) {
+            assert_true(fabs((double)lane(got4[2], l) - four) <= tolerance);
+            assert_true(fabs((double)lane(got3[1], l) - three) <= tolerance);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -163,6 +255,8 @@ int main(void)
         cmocka_unit_test(no_input_reads_outside_of_the_table),
         cmocka_unit_test(lanes_are_found_each_by_itself),
         cmocka_unit_test(an_axis_that_does_not_ascend_is_refused),
+        cmocka_unit_test(bins_find_the_cells_that_a_search_finds),
+        cmocka_unit_test(four_values_a_place_are_blended_as_one_is),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

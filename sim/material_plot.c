@@ -17,7 +17,7 @@
 static const double WIDTH = 900.0, TOP = 40.0, BOTTOM = 10.0; /* px */
 static const double POLAR_X = 225.0, RADIUS = 165.0;
 static const double CHART_X = 510.0, CHART_WIDTH = 340.0, CHART_HEIGHT = 165.0;
-static const double STEP_DEG = 0.25, HORIZON_DEG = 89.9;
+static const double STEP_DEG = 0.25, HORIZON_DEG = 89.75;
 
 enum { BEAMS = 4 };
 static const double beams_deg[BEAMS] = { 0.0, 30.0, 60.0, 80.0 };

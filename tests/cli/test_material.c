@@ -182,7 +182,7 @@ TEST(plots_are_whole_and_not_overwritten)
     folder_free(folder);
 }
 
-/* A matt lobe at 30 degrees is 0.5 of its largest at 60, by cos: from (225, 280) at 165 px. */
+/* A matt lobe is largest straight up: 1 of 1, 165 px above (225, 280). */
 TEST(lobes_are_drawn_to_scale)
 {
     char *folder     = folder_of_materials();

@@ -38,9 +38,8 @@ const command command_material = {
         "beside\n"
         "it the albedo against the angle.\n"
         "--swatch renders a ball of it, 1 m across, on a floor with squares of 25 cm, under a\n"
-        "large lamp behind the left shoulder and a small bright one on the right: a preview, with "
-        "less noise\n"
-        "by --accuracy (100 % if not given).\n",
+        "large lamp behind the left shoulder and a small bright one on the right: a preview, of\n"
+        "less noise by --accuracy (here 100 % if not given).\n",
     .options = " --plot --swatch --overwrite --accuracy --time --threads --seed --json --quiet ",
     .run     = material_command,
 };

@@ -93,6 +93,7 @@ static void find(const measured *m, findings *f)
     const bsdf_figures *b = bsdf_figure(m->layer);
     f->most               = b->most;
     f->scale              = b->scale;
+    f->reciprocity.mean   = b->reciprocity; /* of many more pairs; the reader tells it, too */
     for (int s = 0; s < f->beams.side_count; s++) {
         f->reflectance[s]   = even(b->reflectance[s]);
         f->transmittance[s] = even(b->transmittance[s]);

@@ -37,8 +37,8 @@ double slab_inner(double n, double transmittance)
 
 double quad_integral(const quad *q, dvec3 p, int side, quad_integrand *f, const void *context)
 {
-    dvec3 u = d3_scale(d3_sub(q->corner[1], q->corner[0]), 1.0 / side);
-    dvec3 v = d3_scale(d3_sub(q->corner[3], q->corner[0]), 1.0 / side);
+    dvec3 u    = d3_scale(d3_sub(q->corner[1], q->corner[0]), 1.0 / side);
+    dvec3 v    = d3_scale(d3_sub(q->corner[3], q->corner[0]), 1.0 / side);
     dvec3 area = d3_cross(u, v), from = d3_sub(q->corner[0], p);
     const double near = 0.5 - 0.5 / sqrt(3.0); /* Gauss's two points of a cell */
     double sum        = 0.0;

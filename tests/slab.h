@@ -1,5 +1,5 @@
-/* tests/slab.h -- what stands between a glowing quad and who sees it, in double: glass as a slab, and
- * integrals over the quad.
+/* tests/slab.h -- what stands between a glowing quad and who sees it, in double: glass as a slab,
+ * and integrals over the quad.
  */
 #ifndef TESTS_SLAB_H
 #define TESTS_SLAB_H

@@ -151,8 +151,7 @@ static double cie(dvec3 wi, dvec3 sun, const double k[5], double e_hz)
 {
     double z = acos(wi.z), zs = acos(sun.z), chi = acos(fmin(d3_dot(wi, sun), 1.0));
     double f = 1.0 + k[2] * (exp(k[3] * chi) - exp(k[3] * M_PI / 2.0)) + k[4] * cos(chi) * cos(chi);
-    double fs =
-        1.0 + k[2] * (exp(k[3] * zs) - exp(k[3] * M_PI / 2.0)) + k[4] * cos(zs) * cos(zs);
+    double fs = 1.0 + k[2] * (exp(k[3] * zs) - exp(k[3] * M_PI / 2.0)) + k[4] * cos(zs) * cos(zs);
     return f * (1.0 + k[0] * exp(k[1] / cos(z))) / (fs * (1.0 + k[0] * exp(k[1]))) / e_hz;
 }
 
@@ -194,8 +193,8 @@ static void under(double (*sky)(dvec3), const quad *pane, dvec3 out, const lab_p
     o.pane      = material_pane(&a, &d, NULL);
     assert_non_null(o.pane);
     for (int i = 0; i < count; i++) {
-        o.normal   = p[i].normal;
-        double got = 100.0 * quad_integral(pane, p[i].at, 40, material_passes, &o);
+        o.normal     = p[i].normal;
+        double got   = 100.0 * quad_integral(pane, p[i].at, 40, material_passes, &o);
         double digit = row[i] < 10.0 ? 6e-4 : 6e-3;
         if (!(fabs(got - row[i]) <= digit + 1e-3 * row[i]))
             fail_msg("point %d: %.5g %%, not %.5g", i, got, row[i]);
@@ -227,14 +226,12 @@ TEST(case_5_10_the_pane_under_other_skies)
 /* A window of 2 x 1 m in the wall y = 0, sill at 1 m; A-F opposite, G-N from there */
 TEST(case_5_12_the_pane_in_a_facade)
 {
-    static const double row[3][POINTS] = {
-        { .838, .938, 1.103, 1.331, 1.500, 1.636, .768, 1.151, 1.775, 2.796, 4.397, 6.462, 7.212,
-          2.174 },
-        { .838, .938, 1.583, 2.726, 3.126, 2.794, 1.115, 1.543, 2.185, 3.142, 4.497, 6.025, 6.189,
-          1.763 },
-        { .838, .938, 2.104, 4.352, 5.122, 4.419, 1.759, 2.459, 3.564, 5.358, 8.266, 12.32, 12.75,
-          2.177 }
-    };
+    static const double row[3][POINTS] = { { .838, .938, 1.103, 1.331, 1.500, 1.636, .768, 1.151,
+                                             1.775, 2.796, 4.397, 6.462, 7.212, 2.174 },
+                                           { .838, .938, 1.583, 2.726, 3.126, 2.794, 1.115, 1.543,
+                                             2.185, 3.142, 4.497, 6.025, 6.189, 1.763 },
+                                           { .838, .938, 2.104, 4.352, 5.122, 4.419, 1.759, 2.459,
+                                             3.564, 5.358, 8.266, 12.32, 12.75, 2.177 } };
     lab_probe p[POINTS];
     quad pane = { { { 1, 0, 1 }, { 3, 0, 1 }, { 3, 0, 2 }, { 1, 0, 2 } } };
     for (int i = 0; i < WALL; i++)

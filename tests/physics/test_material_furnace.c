@@ -41,15 +41,15 @@ static void all_of(const scene *s, int m, dvec3 wo, double out[3])
 {
     enum { RINGS = 180, SECTORS = 720 };
     const double half_degree = M_PI / 360.0;
-    vvec3 n     = vspread((vec3){ 0, 0, wo.z > 0.0 ? 1.0f : -1.0f });
-    vint which  = vsplat_int(m);
-    vshading at = { .wo       = vspread(d3_to_float(wo)),
-                    .n        = n,
-                    .flat     = n,
-                    .front    = n.z > 0.0f,
-                    .distance = vsplat(1.0f) };
-    vrgb back   = materials_albedo(s->materials, which, &at, ALL_LANES);
-    vrgb on     = materials_through(s->materials, which, &at, ALL_LANES);
+    vvec3 n                  = vspread((vec3){ 0, 0, wo.z > 0.0 ? 1.0f : -1.0f });
+    vint which               = vsplat_int(m);
+    vshading at              = { .wo       = vspread(d3_to_float(wo)),
+                                 .n        = n,
+                                 .flat     = n,
+                                 .front    = n.z > 0.0f,
+                                 .distance = vsplat(1.0f) };
+    vrgb back                = materials_albedo(s->materials, which, &at, ALL_LANES);
+    vrgb on                  = materials_through(s->materials, which, &at, ALL_LANES);
     for (int c = 0; c < 3; c++)
         out[c] = channel_of(back, c) + channel_of(on, c);
     if (!s->materials[m]->two_sided)
@@ -58,11 +58,11 @@ static void all_of(const scene *s, int m, dvec3 wo, double out[3])
         for (int k = 0; k < SECTORS; k++) {
             double cosine = cos((i + 0.5) * half_degree), sine = sin((i + 0.5) * half_degree);
             double low = sin(i * half_degree), high = sin((i + 1) * half_degree);
-            double turn = 2.0 * M_PI * (k + 0.5) / SECTORS;
-            vec3 d      = { (float)(sine * cos(turn)), (float)(sine * sin(turn)),
-                            (float)(wo.z > 0.0 ? -cosine : cosine) };
-            vvec3 wi      = vspread(d);
-            vrgb f = materials_reflect(s->materials, which, &at, &wi, ALL_LANES, NULL);
+            double turn  = 2.0 * M_PI * (k + 0.5) / SECTORS;
+            vec3 d       = { (float)(sine * cos(turn)), (float)(sine * sin(turn)),
+                             (float)(wo.z > 0.0 ? -cosine : cosine) };
+            vvec3 wi     = vspread(d);
+            vrgb f       = materials_reflect(s->materials, which, &at, &wi, ALL_LANES, NULL);
             double share = (high * high - low * low) * M_PI / SECTORS; /* of cos dw */
             for (int c = 0; c < 3; c++)
                 out[c] += channel_of(f, c) / cosine * share;
@@ -117,8 +117,7 @@ static void plate(const char *looks, const char *materials, double whole)
 
 #define STUDY(text) "\"name\":\"Plate\"", "materials: [{match: Plate, " text "}]\n"
 #define LOOKS(text) "\"name\":\"Plate\",\"pbrMetallicRoughness\":{" text "}", ""
-#define CLEAR                                                                                      \
-    ",\"extensions\":{\"KHR_materials_transmission\":{\"transmissionFactor\":1}}"
+#define CLEAR       ",\"extensions\":{\"KHR_materials_transmission\":{\"transmissionFactor\":1}}"
 
 TEST(matt_surfaces_show_their_reflectance) { plate(STUDY("reflectance: 0.6"), 0.6); }
 TEST(mirrors_show_their_reflectance) { plate(STUDY("mirror: 0.9"), 0.9); }
@@ -227,7 +226,8 @@ TEST(a_box_of_mirrors_that_glow_is_a_furnace)
     lab l;
     lab_open(&l);
     write_enclosure(&l);
-    const lab_probe p[] = { { { 0.3, 0.2, 0.1 }, { 0, 0, 1 } }, { { -1, 1, 1.5 }, { 0.6, 0, -0.8 } } };
+    const lab_probe p[] = { { { 0.3, 0.2, 0.1 }, { 0, 0, 1 } },
+                            { { -1, 1, 1.5 }, { 0.6, 0, -0.8 } } };
     double lux          = M_PI * glow / (1.0 - 0.9);
     grid_result r;
     lab_measure(&l, "scene: glow.gltf\nmaterials: [{match: Glow, mirror: 0.9}]\n", NULL, p, 2,

@@ -56,7 +56,8 @@ static void by_one_mirror(const char *yaml, const char *reflectance, double shar
         want[i] = 1000.0 * (polygon_lux(panel, 4, p[i].at, p[i].normal) +
                             share * polygon_lux(image, 4, p[i].at, p[i].normal));
     grid_result r;
-    lab_measure(&l, text_of(&l.a, "%s\nmaterials: [{match: Mirror, mirror: %s}]\n", yaml, reflectance),
+    lab_measure(&l,
+                text_of(&l.a, "%s\nmaterials: [{match: Mirror, mirror: %s}]\n", yaml, reflectance),
                 NULL, p, N, &(run_options){ .accuracy = 0.02 }, &r);
     lab_check("mirror", &r, want, 1e-4, 0.02);
     for (int i = 0; i < N; i++)
@@ -64,10 +65,7 @@ static void by_one_mirror(const char *yaml, const char *reflectance, double shar
     lab_close(&l);
 }
 
-TEST(a_mirror_doubles_what_glows)
-{
-    by_one_mirror("scene: [glow.gltf, mirror.gltf]", "0.9", 0.9);
-}
+TEST(a_mirror_doubles_what_glows) { by_one_mirror("scene: [glow.gltf, mirror.gltf]", "0.9", 0.9); }
 
 TEST(a_coloured_mirror_colours_the_image)
 {

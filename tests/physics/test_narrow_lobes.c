@@ -1,5 +1,5 @@
-/* tests/physics/test_narrow_lobes.c -- narrow materials in the light of lamps with extent, as a view
- * sees them: the integral of f cos L over the lamp, which asking the lamp and drawing from the
+/* tests/physics/test_narrow_lobes.c -- narrow materials in the light of lamps with extent, as a
+ * view sees them: the integral of f cos L over the lamp, which asking the lamp and drawing from the
  * material have to add up to, whichever does it well.
  */
 #include "core/color.h"
@@ -153,7 +153,8 @@ static void measured(const char *file)
     lab l;
     lab_open(&l);
     lit_plane("\"name\":\"Plane\"",
-              text_of(&l.a, "materials: [{match: Plane, brdf: %s/data/materials/%s, up: [1, 1, 0]}]\n",
+              text_of(&l.a,
+                      "materials: [{match: Plane, brdf: %s/data/materials/%s, up: [1, 1, 0]}]\n",
                       project_root(), file));
     lab_close(&l);
 }

@@ -14,7 +14,7 @@ static const dvec3 up = { 0, 0, 1 }, down = { 0, 0, -1 };
 typedef struct through {
     dvec3 normal; /* of the sensor */
     double n, inner[3];
-    int panes;      /* 1, or 2 in a row */
+    int panes;       /* 1, or 2 in a row */
     int reflections; /* to and fro between them */
 } through;
 
@@ -43,7 +43,7 @@ static void sensors(lab_probe p[N])
         p[i].normal = d3_scale(p[i].normal, 1.0 / d3_length(p[i].normal));
 }
 
-#define DARK "room: {size: [6, 4, 3], reflectance: 0}\n"
+#define DARK        "room: {size: [6, 4, 3], reflectance: 0}\n"
 #define GLASS(more) "materials: [{match: Glass, " more "}]\n"
 
 /* A glowing square of that size at z = 2.5, above what `pane` holds. */
@@ -60,8 +60,8 @@ static void glow_through(const quad *pane, int quads, const char *materials, con
     sensors(p);
     for (int i = 0; i < N; i++)
         for (int k = 0; k <= like->reflections; k++) {
-            through t   = *like;
-            t.normal    = p[i].normal;
+            through t     = *like;
+            t.normal      = p[i].normal;
             t.reflections = k;
             /* Each passage to and fro lets the square stand twice the gap higher */
             quad image = quad_level(2.2, 1.7, 2.5 + 2.0 * 0.05 * k, size);
@@ -110,9 +110,9 @@ TEST(a_closed_box_of_glass_is_one_pane)
 /* T^2 / (1 - R^2): what goes to and fro between them is found by paths alone. */
 TEST(double_glazing_passes_what_goes_to_and_fro_as_well)
 {
-    quad pane[2] = { quad_level(3, 2, 1.5, 20), quad_level(3, 2, 1.55, 20) };
-    through t    = clear_pane(1.7, 0.85, 0.85, 0.85);
-    t.panes      = 2;
+    quad pane[2]  = { quad_level(3, 2, 1.5, 20), quad_level(3, 2, 1.55, 20) };
+    through t     = clear_pane(1.7, 0.85, 0.85, 0.85);
+    t.panes       = 2;
     t.reflections = 6;
     glow_through(pane, 2, GLASS("transmittance: 0.85, ior: 1.7"), &t, 3.0, 0.01);
 }
@@ -183,7 +183,7 @@ static void look_along(lab *l, const char *yaml, double accuracy, view_result *o
 static double mean_of(const view_result *r, int channel, double *half)
 {
     double sum = 0.0, squares = 0.0;
-    int n      = r->width * r->height;
+    int n = r->width * r->height;
     for (int i = 0; i < n; i++) {
         sum += LUMENS_PER_WATT * (double)r->radiance[channel][i];
         squares += (double)r->half_width[i] * (double)r->half_width[i];
@@ -237,10 +237,11 @@ TEST(sensors_on_a_pane_have_the_light_of_their_side)
     double want[2]      = { 3000.0 * polygon_lux(glow.corner, 4, p[0].at, up),
                             200.0 * -d.z / pow(d3_dot(d, d), 1.5) };
     grid_result r;
-    lab_measure(&l,
-                DARK "scene: [glow.gltf, pane.gltf]\n" GLASS("transmittance: 0.8")
-                    "lights: [{type: point, at: [3.5, 2, 0.5], intensity: 200}]\n",
-                NULL, p, 2, &(run_options){ .accuracy = 0.01 }, &r);
+    lab_measure(
+        &l,
+        DARK "scene: [glow.gltf, pane.gltf]\n" GLASS(
+            "transmittance: 0.8") "lights: [{type: point, at: [3.5, 2, 0.5], intensity: 200}]\n",
+        NULL, p, 2, &(run_options){ .accuracy = 0.01 }, &r);
     lab_check("on the glass", &r, want, 1e-4, 0.01);
     lab_close(&l);
 }
@@ -250,7 +251,7 @@ TEST(glass_that_lies_in_something_opaque_lets_no_lamp_through)
 {
     lab l;
     lab_open(&l);
-    quad pane = quad_level(3, 2, 1.5, 20);
+    quad pane  = quad_level(3, 2, 1.5, 20);
     quad board = { { { 13, 12, 1.5 }, { -7, 12, 1.5 }, { -7, -8, 1.5 }, { 13, -8, 1.5 } } };
     lab_quads(&l, "pane.gltf", &pane, 1, "\"name\":\"Glass\"");
     lab_quads(&l, "board.gltf", &board, 1, "\"name\":\"Black\"");

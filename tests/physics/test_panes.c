@@ -268,6 +268,41 @@ TEST(glass_that_lies_in_something_opaque_lets_no_lamp_through)
     lab_close(&l);
 }
 
+/* The globe of a lamp is part of its photometry: its own light passes as if it were not there,
+ * and that of others as glass lets it. */
+TEST(the_glass_of_a_luminaire_tints_the_light_of_others_alone)
+{
+    lab l;
+    lab_open(&l);
+    quad side[6];
+    quads_of_box((dvec3){ -0.2, -0.2, -0.2 }, (dvec3){ 0.2, 0.2, 0.2 }, side);
+    lab_write(&l, "lamp.gltf",
+              "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"name\":"
+              "\"Lamp\",\"mesh\":0,\"translation\":[3,2,-2]}],\"materials\":[{\"name\":\"Glass\"}],"
+              "%s}",
+              lab_mesh(&l, side, 6, NULL, 0));
+    lab_write(&l, "lamp.ies",
+              "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 10\n0 180\n0\n100 100\n");
+    const lab_probe p[] = { { { 3, 2, 0 }, up }, { { 1, 3, 0.5 }, up } };
+    double t            = slab_of(1.52, slab_inner(1.52, 0.7), 1.0).passed;
+    dvec3 own = d3_sub((dvec3){ 3, 2, 2 }, p[1].at), other = d3_sub((dvec3){ 3, 2, 2.5 }, p[1].at);
+    /* The other lamp stands straight above the first: two faces lie before sensor 0, none before 1
+     */
+    double want[] = { 100.0 / 4.0 + t * t * 400.0 / 6.25,
+                      100.0 * own.z / pow(d3_dot(own, own), 1.5) +
+                          400.0 * other.z / pow(d3_dot(other, other), 1.5) };
+    grid_result r;
+    lab_measure(
+        &l,
+        DARK "scene: lamp.gltf\n" GLASS(
+            "transmittance: 0.7") "luminaires: [{photometry: lamp.ies, nodes: Lamp}]\n"
+                                  "lights: [{type: point, at: [3, 2, 2.5], intensity: 400}]\n",
+        NULL, p, 2, &(run_options){ .direct_only = true }, &r);
+    for (int i = 0; i < 2; i++)
+        assert_near(r.illuminance[i], want[i], 1e-5);
+    lab_close(&l);
+}
+
 /* ---- solids ---------------------------------------------------------------------------------- */
 
 static const char solid_glass[] =
@@ -328,6 +363,7 @@ int main(void)
         cmocka_unit_test(a_stack_of_panes_shows_the_glow_behind_it),
         cmocka_unit_test(sensors_on_a_pane_have_the_light_of_their_side),
         cmocka_unit_test(glass_that_lies_in_something_opaque_lets_no_lamp_through),
+        cmocka_unit_test(the_glass_of_a_luminaire_tints_the_light_of_others_alone),
         cmocka_unit_test(a_solid_absorbs_over_its_thickness),
         cmocka_unit_test(a_glow_is_seen_through_a_solid_as_through_a_slab),
     };

@@ -305,7 +305,7 @@ static bool sample_rest(arena *a, grid_run_state *g, grid_result *r, lux_error *
                         .accuracy      = r->asked,
                         .needed        = 1.0,
                         .floor         = FLOOR_MEAN,
-                        .first_samples = 8,
+                        .first_samples = g->s->mirrors ? MIRROR_SAMPLES / SCRAMBLES : 8,
                         .dark_samples  = 256,
                         .threads       = g->o->threads,
                         .deadline      = g->o->deadline,

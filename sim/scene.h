@@ -58,6 +58,10 @@ typedef struct scene_light {
 /* Up to so many lamps are all looked at to choose one; more are chosen from by a tree. */
 enum { FEW_LAMPS = 12 };
 
+/* So many samples a sensor takes at first where there are mirrors: lights in them are met rarely.
+ */
+enum { MIRROR_SAMPLES = 4096 };
+
 /* Lights among which one is chosen. */
 typedef struct light_set {
     const light_tree *tree; /* over `lights`; NULL where lamps are few, and no surface glows */
@@ -116,7 +120,8 @@ typedef struct scene {
     double glow_watts; /* W, not dimmed, of glowing surfaces that are no emitters: they have
                           textures of emission or alpha, and only rays find them */
     uint64_t texture_bytes;
-    bool mirrors_hide; /* light of small lamps that comes by way of mirrors is not found */
+    bool mirrors;      /* some material in use reflects as a mirror does */
+    bool mirrors_hide; /* light of small lights that comes by way of those is not found */
     int small_patches; /* lamps that light a patch too small for samples to find reliably */
 } scene;
 

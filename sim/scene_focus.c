@@ -9,7 +9,8 @@
 
 static const float narrow_pdf  = 100.0f; /* 1/sr: a lobe of about 6 degrees */
 static const float least_share = 0.02f;  /* of light, below which a mirror does not matter */
-static const double found_size = 0.25;   /* m: lamps of that size are found often enough */
+static const double met_often  = 8.0;    /* times, in the first samples of a sensor: then a lamp is
+                                            not overlooked */
 
 enum { SIDE = 8, DRAWS = SIDE * SIDE };
 
@@ -48,26 +49,50 @@ static float mirrored_share(const material *const *all, int m)
     return sum / DRAWS;
 }
 
-/* The first material in use that is as good as a mirror; -1: none. */
-static int first_mirror(const scene *s)
+/* The material in use that is most like a mirror; -1: none is. */
+static int best_mirror(const scene *s, float *share)
 {
-    for (int m = 0; s->narrow && m < s->material_count; m++)
-        if (s->material_info[m].used && mirrored_share(s->materials, m) > least_share)
-            return m;
-    return -1;
+    int best = -1;
+    *share   = least_share;
+    for (int m = 0; s->narrow && m < s->material_count; m++) {
+        float own = s->material_info[m].used ? mirrored_share(s->materials, m) : 0.0f;
+        if (own > *share)
+            best = m, *share = own;
+    }
+    return best;
 }
 
-/* The first lamp that rays do not find; -1: none. */
-static int first_hidden_lamp(const scene *s)
+/* m^2, the face of a box, about. */
+static double face_of(const light *l)
 {
+    light_bounds b = light_bounds_of(l);
+    dvec3 d        = d3_sub(d3_from(b.high), d3_from(b.low));
+    return fmax(d.x * d.y, fmax(d.y * d.z, d.z * d.x));
+}
+
+/* m^2 that a light needs, so that samples of a sensor find it by a mirror of that share often
+ * enough: as seen from a quarter of the scene's diagonal, against all directions by their cosine.
+ */
+static double face_needed(const scene *s, double share)
+{
+    double d = fmin(0.25 * d3_length(d3_sub(s->high, s->low)), 3.0);
+    return met_often * M_PI * d * d / (MIRROR_SAMPLES * share);
+}
+
+/* The first light that is too small; NULL: none. */
+static const char *hidden_light(const scene *s, double share)
+{
+    double needed = face_needed(s, share), glowing = 0.0;
     for (int l = 0; l < s->light_count; l++) {
-        light_bounds b = light_bounds_of(s->lights[l]);
-        dvec3 size     = d3_sub(d3_from(b.high), d3_from(b.low));
-        bool small     = !light_has_extent(s->lights[l]) || b.far || d3_length(size) < found_size;
-        if (small && b.peak > 0.0f)
-            return l;
+        const light *lamp = s->lights[l];
+        light_bounds b    = light_bounds_of(lamp);
+        bool found        = light_has_extent(lamp) && !b.far && face_of(lamp) >= needed;
+        if (!found && b.peak > 0.0f)
+            return s->light_info[l].name;
     }
-    return -1;
+    for (int e = 0; e < s->emitter_count; e++) /* triangles: half of their boxes */
+        glowing += 0.5 * face_of(s->lights[s->light_count + e]);
+    return s->emitter_count > 0 && glowing < needed ? "glowing surfaces" : NULL;
 }
 
 static void tell_solids(const scene *s, notices *n)
@@ -86,14 +111,17 @@ static void tell_solids(const scene *s, notices *n)
 
 void scene_find_focus(scene *s, notices *n)
 {
-    int mirror = first_mirror(s), lamp = first_hidden_lamp(s);
-    s->mirrors_hide = mirror >= 0 && lamp >= 0;
-    if (s->mirrors_hide)
+    float share;
+    int mirror         = best_mirror(s, &share);
+    const char *hidden = mirror >= 0 ? hidden_light(s, (double)share) : NULL;
+    s->mirrors         = mirror >= 0;
+    s->mirrors_hide    = hidden != NULL;
+    if (hidden)
         notice_add(n,
-                   "%s: material \"%s\" reflects like a mirror: the light of small lamps (first "
-                   "`%s`) that falls on other surfaces by way of it is not found, intervals are "
-                   "not valid",
-                   s->study->path, s->material_info[mirror].name, s->light_info[lamp].name);
+                   "%s: material \"%s\" reflects like a mirror: the light of small lights (first "
+                   "`%s`) that falls on other surfaces by way of it is not found, or rarely, "
+                   "intervals are not valid",
+                   s->study->path, s->material_info[mirror].name, hidden);
     if (s->solids)
         tell_solids(s, n);
 }

@@ -246,13 +246,15 @@ $B/public/liblux4.a: $B/liblux4.a
 
 ## install: program, library, header, manual and data below PREFIX (default /usr/local; DESTDIR too)
 install: all $B/public/liblux4.a
-	install -d $(TO)/bin $(TO)/lib/lux4 $(TO)/lib/pkgconfig $(TO)/include/lux4 $(TO)/share/man/man1 $(TO)/share/lux4/office
+	install -d $(TO)/bin $(TO)/lib/lux4 $(TO)/lib/pkgconfig $(TO)/include/lux4 $(TO)/share/man/man1 $(TO)/share/lux4/office \
+	  $(TO)/share/lux4/materials
 	install -m 755 $(PROG) $(TO)/bin
 	install -m 755 $(PLUG) $(TO)/lib/lux4
 	install -m 644 $B/public/liblux4.a $(TO)/lib
 	install -m 644 sim/lux4.h $(TO)/include/lux4
 	install -m 644 sim/lux4.1 $(TO)/share/man/man1
-	install -m 644 STUDY.md $(TO)/share/lux4
+	install -m 644 STUDY.md MATERIALS.md $(TO)/share/lux4
+	install -m 644 $(wildcard data/materials/*.brdf data/materials/*.xml) $(TO)/share/lux4/materials
 	install -m 644 $(wildcard data/office/*.yaml data/office/*.glb data/office/*.ies data/office/*.ldt) $(TO)/share/lux4/office
 	@printf '%s\n' 'prefix=$(PREFIX)' 'Name: lux4' 'Description: lighting-design simulation' 'Version: $(VERSION)' \
 	  'Cflags: -I$${prefix}/include/lux4' 'Requires.private: $(PKGS)' \

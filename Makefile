@@ -75,6 +75,7 @@ PLUG  := $(patsubst $(SHIM),$B/liblux4_oiio.so,$(wildcard $(SHIM)))
 TEXT  := $(wildcard $(foreach d,$(LAYERS) tests tests/* data/*,$d/*.[ch] $d/*.cpp))
 
 TO        := $(DESTDIR)$(PREFIX)
+SHIPPED   := data/office data/car data/glass data/materials
 MAKEFLAGS += --no-builtin-rules --no-print-directory
 Q         := $(if $V,,@)
 .DELETE_ON_ERROR:
@@ -189,10 +190,12 @@ tests: all $(TESTS)
 check-long: all $(LONG)
 	$Qfor t in $(LONG); do $$t || exit 1; done
 
-## demo: the office: its illuminance table, and a picture in data/office/out
+## demo: the office, a car and a room of glass: illuminance tables, and pictures in their folders' out/
 demo: all
 	$(PROG) grid data/office/office.yaml
 	$(PROG) render data/office/office.yaml --accuracy 25%
+	for s in car glass; do \
+	  $(PROG) grid data/$$s/$$s.yaml && { $(PROG) render data/$$s/$$s.yaml --time 45 || [ $$? = 3 ]; } || exit; done
 
 ## bench: rays per second of packets, of one ray at a time and of Embree, appended to build/bench.log
 bench: bench-deps build/bench/office-65000.glb build/bench/office-270000.glb
@@ -246,16 +249,16 @@ $B/public/liblux4.a: $B/liblux4.a
 
 ## install: program, library, header, manual and data below PREFIX (default /usr/local; DESTDIR too)
 install: all $B/public/liblux4.a
-	install -d $(TO)/bin $(TO)/lib/lux4 $(TO)/lib/pkgconfig $(TO)/include/lux4 $(TO)/share/man/man1 $(TO)/share/lux4/office \
-	  $(TO)/share/lux4/materials
+	install -d $(TO)/bin $(TO)/lib/lux4 $(TO)/lib/pkgconfig $(TO)/include/lux4 $(TO)/share/man/man1 \
+	  $(SHIPPED:data/%=$(TO)/share/lux4/%)
 	install -m 755 $(PROG) $(TO)/bin
 	install -m 755 $(PLUG) $(TO)/lib/lux4
 	install -m 644 $B/public/liblux4.a $(TO)/lib
 	install -m 644 sim/lux4.h $(TO)/include/lux4
 	install -m 644 sim/lux4.1 $(TO)/share/man/man1
 	install -m 644 STUDY.md MATERIALS.md $(TO)/share/lux4
-	install -m 644 $(wildcard data/materials/*.brdf data/materials/*.xml) $(TO)/share/lux4/materials
-	install -m 644 $(wildcard data/office/*.yaml data/office/*.glb data/office/*.ies data/office/*.ldt) $(TO)/share/lux4/office
+	$Qfor d in $(SHIPPED); do for f in $$d/*.yaml $$d/*.glb $$d/*.ies $$d/*.ldt $$d/*.brdf $$d/*.xml; do \
+	  [ ! -e $$f ] || install -m 644 $$f $(TO)/share/lux4/$${d#data/} || exit 1; done; done
 	@printf '%s\n' 'prefix=$(PREFIX)' 'Name: lux4' 'Description: lighting-design simulation' 'Version: $(VERSION)' \
 	  'Cflags: -I$${prefix}/include/lux4' 'Requires.private: $(PKGS)' \
 	  'Libs: -L$${prefix}/lib -llux4 $(PKG_LIBS) -lstdc++ -lm -ldl -pthread' > $(TO)/lib/pkgconfig/lux4.pc

@@ -37,12 +37,15 @@ static vtexel look_up(const texture_slot *slot, const place *at)
                            at->width * at->detail->scale[slot->set] * scale, at->lanes);
 }
 
-/* glTF 2.0, 3.9.4 */
-static vfloat openness_of(const material *m, vfloat alpha)
+/* glTF 2.0, 3.9.4. Where a mask has holes does not depend on how wide the ray is that asks: the
+ * mean of fine lace would be all or nothing. */
+static vfloat openness_of(const material *m, const place *at, vfloat alpha)
 {
+    place sharp  = { at->detail, vsplat(0.0f), at->lanes };
     vfloat there = (1.0f - m->look.openness) * alpha;
     switch (m->textures->alpha) {
     case ALPHA_MASK:
+        there = (1.0f - m->look.openness) * look_up(&m->textures->base, &sharp).alpha;
         return vselect(there >= m->textures->cutoff, vsplat(0.0f), vsplat(1.0f));
     case ALPHA_BLEND:
         return share(1.0f - there);
@@ -58,12 +61,12 @@ static vlook look_at(const material *m, const place *at)
     vtexel base                = look_up(&t->base, at);
     if (t->alpha_only)
         base.red = base.green = base.blue = vsplat(1.0f);
-    vtexel surface             = look_up(&t->surface, at);
+    vtexel surface = look_up(&t->surface, at);
     return (vlook){
         .color           = share3(times(c->color, base)),
         .emission        = not_below_0(times(c->emission, look_up(&t->emission, at))),
         .specular        = not_below_0(times(c->specular, look_up(&t->specular_color, at))),
-        .openness        = openness_of(m, base.alpha),
+        .openness        = openness_of(m, at, base.alpha),
         .metallic        = share(c->metallic * surface.blue),
         .roughness       = share(c->roughness * surface.green),
         .transmission    = share(c->transmission * look_up(&t->transmission, at).red),

@@ -20,7 +20,7 @@
 #include <unistd.h>
 
 enum { SIDE = 512, RAYS = SIDE * SIDE, PACKETS = RAYS / LANES, BATCH = 256 / LANES };
-enum { SCENES = 3, ROUNDS = 9 };
+enum { SCENES = 5, ROUNDS = 9 };
 typedef enum kind { CAMERA, SHADOW, DIFFUSE, KINDS } kind;
 
 static double seconds(void)
@@ -30,10 +30,18 @@ static double seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* ---- scenes: the office, and the same office modelled finer --------------------------------- */
+/* ---- scenes: the office, the same modelled finer, a room full of glass, a car ---------------- */
 
-static const char *const files[SCENES] = { "data/office/office.glb", "build/bench/office-65000.glb",
-                                           "build/bench/office-270000.glb" };
+static const struct {
+    const char *file;
+    vec3 lamp; /* m, to which shadow rays go */
+} models[SCENES] = {
+    { "data/office/office.glb", { 5.4f, 3.9f, 2.85f } },
+    { "build/bench/office-65000.glb", { 5.4f, 3.9f, 2.85f } },
+    { "build/bench/office-270000.glb", { 5.4f, 3.9f, 2.85f } },
+    { "data/glass/glass.glb", { 2.15f, 2.05f, 1.7f } },
+    { "data/car/car.glb", { 1.2f, -5.2f, 2.2f } },
+};
 
 /* All triangles of the file in one mesh, as Embree gets them too; *eye: its first camera. */
 static void read_scene(shape *s, transform *eye, const char *path)
@@ -104,9 +112,9 @@ static void camera_rays(scene *c)
 }
 
 /* From where the camera's rays end to a lamp, and anywhere by the cosine law */
-static void further_rays(scene *c)
+static void further_rays(scene *c, vec3 at)
 {
-    const vvec3 lamp = vspread((vec3){ 5.4f, 3.9f, 2.85f });
+    const vvec3 lamp = vspread(at);
     uint32_t seed    = 5;
     for (int i = 0; i < PACKETS; i++) {
         vsurface s;
@@ -154,7 +162,7 @@ static double trace(scene *c, kind k)
 
 static void scene_make(scene *c, int number)
 {
-    read_scene(&c->s, &c->eye, files[number]);
+    read_scene(&c->s, &c->eye, models[number].file);
     static const world_instance one = { .place = TRANSFORM_IDENTITY };
     mesh m                          = shape_mesh(&c->s);
     lux_error err;
@@ -170,7 +178,7 @@ static void scene_make(scene *c, int number)
     c->blocked = room_for(PACKETS, sizeof(vmask));
     camera_rays(c);
     trace(c, CAMERA);
-    further_rays(c);
+    further_rays(c, models[number].lamp);
 }
 
 static void scene_clear(scene *c)

@@ -156,6 +156,32 @@ TEST(alpha_blends_masks_or_says_nothing)
     }
 }
 
+/* Holes of 2 by 2 texels in each 4 by 4, seen from where the whole picture is one pixel. Of a
+ * hole's four corners, bilinear alpha leaves x y > 1/2 of a unit square, (1 - log 2) / 2, instead
+ * of 1/4. */
+TEST(lace_has_as_many_holes_from_afar)
+{
+    enum { SIDE = 16, PLACES = 256 };
+    static float rgba[4 * SIDE * SIDE];
+    for (int i = 0; i < SIDE * SIDE; i++)
+        rgba[4 * i + 3] = i / SIDE / 2 % 2 && i / 2 % 2 ? 0.0f : 1.0f;
+    material_textures t = { .base   = picture(SIDE, SIDE, rgba),
+                            .alpha  = ALPHA_MASK,
+                            .cutoff = 0.5f };
+    material m          = plain(&t);
+    m.look.openness     = 0.0f;
+    double open         = 0.0;
+    for (int i = 0; i < PLACES * PLACES; i++) {
+        vdetail d  = floor_detail();
+        vshading s = seen_from(0, 1);
+        d.u[0]     = vsplat(((float)(i % PLACES) + 0.5f) / PLACES);
+        d.v[0]     = vsplat(((float)(i / PLACES) + 0.5f) / PLACES);
+        look(&m, &d, 1.0f, &s);
+        open += (double)lane(s.look.openness, 0) / (PLACES * PLACES);
+    }
+    assert_near(open, (4.0 - 4.0 * (0.25 - 0.5 * (1.0 - log(2.0)))) / 16.0, 0.01);
+}
+
 TEST(lanes_without_textures_are_left_alone)
 {
     material_textures t = { .base         = even(0.5f, 0.5f, 0.5f, 1),
@@ -406,6 +432,7 @@ int main(void)
         CLEARED(constants_stand_where_there_is_no_texture),
         CLEARED(shares_stay_shares_whatever_the_picture_says),
         CLEARED(alpha_blends_masks_or_says_nothing),
+        CLEARED(lace_has_as_many_holes_from_afar),
         CLEARED(lanes_without_textures_are_left_alone),
         CLEARED(pictures_are_moved_turned_and_scaled),
         CLEARED(the_width_is_in_metres_and_changed_with_the_picture),

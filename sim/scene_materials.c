@@ -5,7 +5,9 @@
 #include "core/color.h"
 #include "sim/scene_build.h"
 
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Light dies out nowhere in a closed room whose surfaces give all of it back, and its illuminance
  * has no finite value. The whitest surfaces there are, of sintered PTFE, reflect 99 %. */
@@ -108,6 +110,27 @@ static const study_material *match(const scene_build *b, const char *name)
     return NULL;
 }
 
+/* "`Floor`, `Wall` and 5 more": what could have been meant. */
+static void list_names(const scene_build *b, char *text, size_t size)
+{
+    const size_t of_rest       = 24; /* " and 4294967295 more" */
+    const scene_material *info = b->material_info.items;
+    size_t length = 0, left = 0;
+    text[0] = '\0';
+    for (size_t k = 0; k < b->material_info.count; k++) {
+        const char *name = info[k].name;
+        if (!info[k].used || !name[0])
+            continue;
+        if (left > 0 || length + strlen(name) + 4 + of_rest > size)
+            left++;
+        else
+            length +=
+                (size_t)snprintf(text + length, size - length, "%s`%s`", length ? ", " : "", name);
+    }
+    if (left > 0)
+        snprintf(text + length, size - length, "%s%zu more", length ? " and " : "", left);
+}
+
 /* Each pattern must match something: a misspelt one would be ignored in silence. */
 static bool all_patterns_match(scene_build *b)
 {
@@ -115,11 +138,15 @@ static bool all_patterns_match(scene_build *b)
     for (int i = 0; i < b->study->material_count; i++) {
         const study_material *m = &b->study->materials[i];
         bool found              = false;
+        char names[240];
         for (size_t k = 0; k < b->material_info.count && !found; k++)
             found = study_match(m->match, info[k].name);
-        if (!found)
-            return study_failed(b->study, m->where, b->err, ERR_ARGUMENT,
-                                "`%s` matches no material (lux4 check lists them)", m->match);
+        if (found)
+            continue;
+        list_names(b, names, sizeof names);
+        return study_failed(b->study, m->where, b->err, ERR_ARGUMENT,
+                            "`%s` matches no material; there are %s", m->match,
+                            names[0] ? names : "none with a name");
     }
     return true;
 }

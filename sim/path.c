@@ -28,7 +28,13 @@ path_tracer *path_tracer_new(arena *a, const scene *s, lux_error *err)
     t->fields = s->textured ? FIELDS : finds_light(s) ? WIDTH : PLAIN_FIELDS;
     t->direct = direct_scratch_new(a, err);
     t->shown  = lamps_that_show(a, s, err);
-    return t->direct && t->shown.lamps ? t : NULL;
+    if (!t->direct || !t->shown.lamps)
+        return NULL;
+    if (t->fields == PLAIN_FIELDS)
+        return t;
+    t->list  = arena_array(a, int32_t, (size_t)t->shown.count + 1, err);
+    t->boxes = lamp_boxes_new(a, s, &t->shown, err);
+    return t->list && t->boxes ? t : NULL;
 }
 
 int64_t path_rays(const path_tracer *t) { return t->ray_count + direct_rays(t->direct); }

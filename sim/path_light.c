@@ -211,8 +211,13 @@ void path_add_lamps_met(path_tracer *t)
 {
     for (int k = 0; k < packets_of(t); k++) {
         vmask looking = t->active[k] & (load(t, LAMP_PDF, k) >= 0.0f);
-        for (int i = 0; vany(looking) && i < t->shown.count; i++)
-            add_lamp_met(t, k, t->shown.lamps[i], looking);
+        if (!vany(looking))
+            continue;
+        vray ray  = t->rays[k];
+        ray.reach = t->hits[k].distance;
+        int count = lamp_boxes_met(t->boxes, &ray, looking, t->list);
+        for (int i = 0; i < count; i++)
+            add_lamp_met(t, k, t->list[i], looking);
     }
 }
 

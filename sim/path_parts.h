@@ -5,8 +5,8 @@
 #define SIM_PATH_PARTS_H
 
 #include "sim/direct.h"
+#include "sim/lamp_boxes.h"
 #include "sim/path.h"
-#include "sim/seen_lamps.h"
 
 enum { PACKETS = PATHS / LANES };
 
@@ -38,7 +38,9 @@ struct path_tracer {
     const scene *s;
     const path_options *o;
     direct_scratch *direct;
-    seen_lamps shown; /* that rays may find */
+    seen_lamps shown;        /* lamps that rays may find */
+    const lamp_boxes *boxes; /* of those */
+    int32_t *list;           /* room for as many */
     int64_t ray_count;
     path_bundle *b;
     int alive, fields;  /* of those below that are carried */

@@ -70,6 +70,20 @@ static int first_hidden_lamp(const scene *s)
     return -1;
 }
 
+static void tell_solids(const scene *s, notices *n)
+{
+    const char *first = NULL;
+    int count         = 0;
+    for (int m = s->material_count - 1; m >= 0; m--)
+        if (s->material_info[m].used && s->materials[m]->solid)
+            first = s->material_info[m].name, count++;
+    notice_add(
+        n,
+        "%s: %d material%s of solids that refract, first \"%s\": what is seen through them is "
+        "bent, but direct light is taken to pass them straight: intervals are not valid",
+        s->study->path, count, count > 1 ? "s" : "", first);
+}
+
 void scene_find_focus(scene *s, notices *n)
 {
     int mirror = first_mirror(s), lamp = first_hidden_lamp(s);
@@ -80,4 +94,6 @@ void scene_find_focus(scene *s, notices *n)
                    "`%s`) that falls on other surfaces by way of it is not found, intervals are "
                    "not valid",
                    s->study->path, s->material_info[mirror].name, s->light_info[lamp].name);
+    if (s->solids)
+        tell_solids(s, n);
 }

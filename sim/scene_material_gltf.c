@@ -135,9 +135,6 @@ static const material *make_solid(scene_build *b, const material_source *s)
                  .tint       = v3_scale(m->base_color, clearness(m) * mean_of(&t->transmission).x),
                  .extra      = material_extra_of(m)
     };
-    tell(b, s, true,
-         "a solid that refracts: what is seen through it is bent, but the light of lamps is taken "
-         "to pass it straight");
     tell(b, s, m->roughness >= smooth || t->surface.texture,
          "the rough border of a solid is taken as smooth");
     tell(b, s, clearness(m) < 1.0f || t->transmission.texture,

@@ -1,5 +1,5 @@
 /* tests/unit/test_seen_lamps.c -- which lamps the rays of a batch may see. */
-#include "sim/seen_lamps.h"
+#include "sim/lamp_boxes.h"
 #include "tests/test.h"
 
 enum { LAMPS = 200, PACKETS = 32 / LANES, BATCHES = 200 };
@@ -92,10 +92,46 @@ TEST(no_lamp_that_a_ray_meets_is_left_out)
     arena_clear(&a);
 }
 
+/* Of a packet's rays, and in order. */
+TEST(no_lamp_that_a_packet_meets_lies_outside_of_the_boxes_met)
+{
+    arena a       = { 0 };
+    uint32_t seed = 3;
+    scene s;
+    make_lamps(&a, &s, &seed);
+    seen_lamps all          = lamps_that_show(&a, &s, NULL);
+    const lamp_boxes *boxes = lamp_boxes_new(&a, &s, &all, NULL);
+    int32_t *list           = arena_array(&a, int32_t, LAMPS, NULL);
+    int met = 0, given = 0;
+    for (int b = 0; b < BATCHES; b++) {
+        vray rays[PACKETS];
+        vmask active[PACKETS];
+        make_rays(rays, active, 3.0, &seed);
+        for (int k = 0; k < PACKETS; k++) {
+            int count = lamp_boxes_met(boxes, &rays[k], active[k], list);
+            given += count;
+            for (int i = 0, at = 0; i < all.count; i++) {
+                const light *l = s.lights[all.lamps[i]];
+                bool listed    = at < count && list[at] == all.lamps[i];
+                at += listed;
+                vlight_hit hit;
+                if (vany(l->type->hit(l, &rays[k].origin, &rays[k].direction, active[k], &hit))) {
+                    met++;
+                    assert_true(listed);
+                }
+            }
+        }
+    }
+    assert_true(met > BATCHES);
+    assert_true(given < all.count * BATCHES * PACKETS / 2);
+    arena_clear(&a);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(no_lamp_that_a_ray_meets_is_left_out),
+        cmocka_unit_test(no_lamp_that_a_packet_meets_lies_outside_of_the_boxes_met),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

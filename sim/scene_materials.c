@@ -20,13 +20,22 @@ static float bounded(float share, float mean)
 
 vec3 material_bounded(scene_build *b, const material_source *s, vec3 share, vec3 mean)
 {
-    vec3 to = { bounded(share.x, mean.x), bounded(share.y, mean.y), bounded(share.z, mean.z) };
-    if (s->used && (to.x < share.x || to.y < share.y || to.z < share.z))
-        notice_add(b->notices,
-                   "%s: some materials reflect more than 99.5 %%, as no real surface does: "
-                   "taken as 99.5 %% (lux4 check lists them)",
-                   b->study->path);
+    vec3 to   = { bounded(share.x, mean.x), bounded(share.y, mean.y), bounded(share.z, mean.z) };
+    bool less = to.x < share.x || to.y < share.y || to.z < share.z;
+    if (s->used && less && b->bounded_count++ == 0)
+        b->first_bounded = s->from->name;
     return to;
+}
+
+static void tell_bounded(const scene_build *b)
+{
+    int n = b->bounded_count;
+    if (n > 0)
+        notice_add(b->notices,
+                   "%s: %d material%s more than 99.5 %%, as no real surface does, first \"%s\": "
+                   "taken as 99.5 %%",
+                   b->study->path, n, n > 1 ? "s reflect" : " reflects",
+                   b->first_bounded[0] ? b->first_bounded : "(unnamed)");
 }
 
 /* ---- what is known --------------------------------------------------------------------------- */
@@ -251,5 +260,6 @@ bool build_materials(scene_build *b)
             return false;
     }
     b->first_material = first;
+    tell_bounded(b);
     return all_patterns_match(b);
 }

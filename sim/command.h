@@ -25,11 +25,11 @@ typedef struct command_line {
     int threads;        /* 0: as many as processors */
     uint32_t seed;      /* 1 */
     bool quiet, json, direct_only, half, groups, schedule;
-    double accuracy;          /* 0.02 for 2%; NAN */
-    double seconds;           /* NAN */
-    double exposure_ev;       /* 0: as the picture's average asks */
-    const char *plot, *write; /* NULL */
-    const char *variant;      /* of the study; NULL */
+    double accuracy;                   /* 0.02 for 2%; NAN */
+    double seconds;                    /* NAN */
+    double exposure_ev;                /* 0: as the picture's average asks */
+    const char *plot, *write, *swatch; /* NULL */
+    const char *variant;               /* of the study; NULL */
 } command_line;
 
 /* What a command runs with. */
@@ -56,7 +56,8 @@ typedef struct command {
                lux_error *err); /* an exit code; if not 0, *err may say why */
 } command;
 
-extern const command command_grid, command_render, command_check, command_photometry, command_mix;
+extern const command command_grid, command_render, command_check, command_photometry,
+    command_material, command_mix;
 
 /* Reads the words behind the command's name. False, with *err, for what cannot be. */
 bool command_line_read(arena *a, const command *c, int count, char *const *words, command_line *out,

@@ -26,7 +26,8 @@ static const option options[] = {
     { "--schedule", NULL, "also the luminaires: counts, watts, lm/W, W/m2", true },
     { "--half", NULL, "write 16-bit floats" },
     { "--exposure", "EV", "brighter or darker preview, in stops" },
-    { "--plot", "FILE.svg", "polar diagram, as data sheets have it", true },
+    { "--plot", "FILE.svg", "draw it: a polar diagram, as said above", true },
+    { "--swatch", "FILE.png", "render a ball of it", true },
     { "--write", "FILE", "convert to .ies or .ldt", true },
     { "--json", NULL, "results as one JSON object on stdout" },
     { "--quiet", NULL, "no progress bar, no warnings" },
@@ -120,6 +121,8 @@ static bool take(command_line *l, const char *name, const char *value, lux_error
         l->seed = (uint32_t)n;
     } else if (!strcmp(name, "--plot")) {
         l->plot = value;
+    } else if (!strcmp(name, "--swatch")) {
+        l->swatch = value;
     } else if (!strcmp(name, "--write")) {
         l->write = value;
     } else if (!strcmp(name, "--variant")) {

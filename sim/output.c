@@ -28,6 +28,13 @@ int output_attributes(image_attribute all[MOST_ATTRIBUTES], const study *s, bool
     return count;
 }
 
+bool output_free(const char *path, bool overwrite, lux_error *err)
+{
+    if (!path || overwrite || access(path, F_OK) != 0)
+        return true;
+    return failed(err, ERR_ARGUMENT, "%s: is there already; --overwrite replaces it", path);
+}
+
 static char *join(arena *a, const char *folder, const char *name, const char *extension,
                   lux_error *err)
 {

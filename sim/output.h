@@ -27,6 +27,10 @@ char *output_path(arena *a, const study *s, const output_place *o, const char *n
 bool output_check(const study *s, const output_place *o, const char *name,
                   const char *const *extensions, int count, lux_error *err);
 
+/* Whether a file may take the name that the user gave it: one that is there is refused without
+ * --overwrite. NULL: there is nothing to write. */
+bool output_free(const char *path, bool overwrite, lux_error *err);
+
 /* Adds what only some results say, the study's variant and that they are partial, to the
  * attributes of an EXR: behind those that have a name. How many there are then. */
 enum { MOST_ATTRIBUTES = 16 };

@@ -1,10 +1,10 @@
 /* sim/photometry_report.c -- figures of photometric files as text and JSON; see the header. */
 #include "sim/photometry_report.h"
 #include "core/utf8.h"
+#include "sim/output.h"
 
 #include <math.h>
 #include <string.h>
-#include <unistd.h>
 
 /* ---- JSON ------------------------------------------------------------------------------- */
 
@@ -154,14 +154,6 @@ static void report_text(FILE *out, const char *file, const photometry *p,
 
 /* ---- files ------------------------------------------------------------------------------ */
 
-/* Whether a result may take this name. */
-static bool free_name(const char *path, const photometry_options *o, lux_error *err)
-{
-    if (o->overwrite || access(path, F_OK) != 0)
-        return true;
-    return failed(err, ERR_ARGUMENT, "%s: is there already; --overwrite replaces it", path);
-}
-
 /* The luminaire's name, or its number, or that of the file. */
 static const char *title_of(const photometry *p, const char *file)
 {
@@ -179,10 +171,11 @@ static bool report_file(FILE *out, const char *file, const photometry_options *o
     if (p) {
         photometry_figures f = photometry_figure(p, file, &warnings);
         if (o->write)
-            done = free_name(o->write, o, err) && photometry_write(p, o->write, &warnings, err);
+            done = output_free(o->write, o->overwrite, err) &&
+                   photometry_write(p, o->write, &warnings, err);
         if (done && o->plot)
-            done =
-                free_name(o->plot, o, err) && photometry_plot(p, title_of(p, file), o->plot, err);
+            done = output_free(o->plot, o->overwrite, err) &&
+                   photometry_plot(p, title_of(p, file), o->plot, err);
         fputs(*first ? "" : o->json ? "," : "\n", out);
         *first = false;
         if (o->json)

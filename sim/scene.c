@@ -37,6 +37,8 @@ static bool read_files(scene_build *b)
     if (!b->files)
         return false;
     for (int i = 0; i < s->scene_count; i++) {
+        if (b->options->models)
+            b->files[i] = b->options->models[i];
         for (int j = 0; j < i && !b->files[i]; j++)
             if (!strcmp(s->scenes[i].file, s->scenes[j].file))
                 b->files[i] = b->files[j];

@@ -124,8 +124,9 @@ typedef struct scene {
 const char *scene_left_to_chance(const scene *s, bool direct_only);
 
 typedef struct scene_options {
-    int threads;  /* to build on, >= 1 */
-    bool layered; /* lights as if not dimmed: for a layer of each group */
+    int threads;               /* to build on, >= 1 */
+    bool layered;              /* lights as if not dimmed: for a layer of each group */
+    const gltf *const *models; /* of study->scenes, in place of their files; NULL */
 } scene_options;
 
 /* Builds the scene of a study into a. NULL, with *err naming file and place. What is left out or

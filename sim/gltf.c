@@ -65,6 +65,7 @@ static const char *const simulated[] = {
     "KHR_materials_ior",
     "KHR_materials_specular",
     "KHR_materials_volume",
+    "KHR_materials_unlit",
     "KHR_texture_transform",
     "EXT_texture_webp",
     NULL,
@@ -72,7 +73,6 @@ static const char *const simulated[] = {
 
 /* They change looks alone: a scene is whole without them. */
 static const char *const looks[] = {
-    "KHR_materials_unlit",
     "KHR_materials_clearcoat",
     "KHR_materials_sheen",
     "KHR_materials_iridescence",

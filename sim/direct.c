@@ -10,7 +10,7 @@ struct direct_scratch {
     vray rays[DIRECT_PACKETS];
     vmask asked[DIRECT_PACKETS], blocked[DIRECT_PACKETS];
     vint spare[DIRECT_PACKETS];
-    vrgb passes[DIRECT_PACKETS];
+    vpassed passed[DIRECT_PACKETS];
     int64_t ray_count;
 };
 
@@ -103,15 +103,23 @@ static void begin_pick(direct_scratch *w, int k, direct_pick *out)
     w->spare[k] = vsplat_int(0);
 }
 
+/* What paths find behind solids they do not count: light that was asked for there has no other
+ * way. */
+static void take_passed(const vpassed *p, vmask asked, direct_pick *out)
+{
+    out->e   = vselect3(asked, vmul(out->e, p->share), out->e);
+    out->pdf = vselect(asked & p->solids, vsplat(INFINITY), out->pdf);
+}
+
 static void end_picks(const scene *s, direct_scratch *w, int packets, ray_hint hint,
                       direct_pick *out)
 {
     w->ray_count +=
-        shadow_trace(s, w->rays, w->asked, w->spare, packets, hint, w->blocked, w->passes);
+        shadow_trace(s, w->rays, w->asked, w->spare, packets, hint, w->blocked, w->passed);
     for (int k = 0; k < packets; k++) {
         vmask blocked = w->asked[k] & w->blocked[k];
         if (s->hollow)
-            out[k].e = vselect3(w->asked[k], vmul(out[k].e, w->passes[k]), out[k].e);
+            take_passed(&w->passed[k], w->asked[k], &out[k]);
         out[k].e = vkeep3(~blocked, out[k].e);
     }
 }

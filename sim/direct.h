@@ -32,7 +32,7 @@ typedef struct direct_pick {
     vvec3 wi;
     vrgb e;     /* W/m^2, facing wi, divided by all probabilities; 0 in shadow; tinted by glass */
     vint light; /* of scene.lights; -1: none */
-    vfloat pdf; /* 1/sr, with which wi is drawn; INFINITY: no ray finds the light by itself */
+    vfloat pdf; /* 1/sr, with which wi is drawn; INFINITY: paths do not find the light themselves */
 } direct_pick;
 
 /* Lamp l for all points. */

@@ -7,6 +7,7 @@
 
 #include "sim/direct.h"
 #include "sim/direct_sensor.h"
+#include "sim/shadow.h"
 
 /* A lamp as the sensors of a packet see it. */
 typedef struct candidate {
@@ -45,7 +46,7 @@ struct direct_sensor {
     vmask asked[DIRECT_PACKETS], blocked[DIRECT_PACKETS];
     vint spare[DIRECT_PACKETS], light[DIRECT_PACKETS];
     vfloat e[DIRECT_PACKETS];
-    vrgb passes[DIRECT_PACKETS]; /* in a scene with hollow surfaces */
+    vpassed passed[DIRECT_PACKETS]; /* in a scene with hollow surfaces */
     int batched;
 };
 

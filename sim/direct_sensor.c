@@ -3,7 +3,6 @@
 
 #include "core/color.h"
 #include "sim/direct_parts.h"
-#include "sim/shadow.h"
 
 #include <string.h>
 
@@ -139,7 +138,7 @@ void direct_add(direct_sensor *w, sensor_sum *sums, int l, vfloat e, vfloat boun
 void direct_trace(direct_sensor *w, ray_hint hint)
 {
     w->ray_count +=
-        shadow_trace(w->s, w->rays, w->asked, w->spare, w->batched, hint, w->blocked, w->passes);
+        shadow_trace(w->s, w->rays, w->asked, w->spare, w->batched, hint, w->blocked, w->passed);
 }
 
 /* Of a lamp's light as luminance, what glass of another colour lets through. */
@@ -150,7 +149,7 @@ static vfloat tinted(const direct_sensor *w, int k, vfloat e)
         int l;
         vmask same = vtake_same(w->light[k], &left, &l);
         vrgb color = vspread(w->s->light_info[l].color);
-        share      = vselect(same, vrgb_luminance(vmul(color, w->passes[k])), share);
+        share      = vselect(same, vrgb_luminance(vmul(color, w->passed[k].share)), share);
     }
     return vselect(w->asked[k], e * share, e);
 }

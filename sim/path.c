@@ -122,7 +122,8 @@ static void note_scattered(path_tracer *t, int k, const vscatter *next)
 {
     vint before = vload_int(t->state + k * LANES);
     vint around = vselect_int(t->around[k], vsplat_int(AROUND), vsplat_int(0));
-    vstore_int(t->state + k * LANES, vselect_int(next->straight, before, around | SCATTERED));
+    vstore_int(t->state + k * LANES,
+               vselect_int(next->straight, before | PASSED, around | SCATTERED));
     if (t->fields < FIELDS)
         return;
     vmask wide    = ~next->straight & (next->pdf < INFINITY);
@@ -143,9 +144,10 @@ static vmask next_direction(path_tracer *t, int k, vscatter *next)
         goes = goes & next->straight;
     vrgb worth = vmul(load3(t, WORTH, k), next->weight);
 
-    /* Roulette: a path goes on as often as it is worth going */
+    /* Roulette: a path goes on as often as it is worth going. Straight on it ends by itself. */
     vfloat most     = vmax(worth.x, vmax(worth.y, worth.z));
-    vfloat survival = vmin(most, vsplat(surest_survival));
+    vfloat surest   = vselect(next->straight, vsplat(1.0f), vsplat(surest_survival));
+    vfloat survival = vmin(most, surest);
     goes            = goes & (u->w < survival);
     store3(t, WORTH, k, vscale(worth, 1.0f / survival));
     return goes;

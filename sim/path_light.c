@@ -3,6 +3,7 @@
 #include "core/color.h"
 #include "sim/path_parts.h"
 #include "sim/sensor.h"
+#include "sim/shadow.h"
 
 enum { ASKED_LAMPS = 16 }; /* that are all asked where a path begins, if one would not do */
 
@@ -183,26 +184,52 @@ void path_add_glow(path_tracer *t)
     }
 }
 
+/* How much lamp l counts, met by rays that may have been drawn as the lamp was asked for. */
+static vfloat lamp_share(const path_tracer *t, int k, int l, vmask seen)
+{
+    vfloat pdf  = load(t, LAMP_PDF, k);
+    vmask asked = seen & (pdf < INFINITY);
+    if (!vany(asked))
+        return first_of(t, k);
+    vsurface before = place_before(t, k);
+    vvec3 wi        = t->rays[k].direction;
+    vfloat other    = direct_lamp_pdf(t->s, &before, &wi, l, state_has(t, k, AROUND), asked);
+    return first_of(t, k) * power_heuristic(pdf, vkeep(asked, other));
+}
+
+/* Which of the lanes that meet a lamp with a body see it as they would if they asked for it: all
+ * the way from where they were last, as if its body were not there. */
+static vmask see_past_body(const path_tracer *t, int k, int l, const vlight_hit *hit, vmask met,
+                           vpassed *passed)
+{
+    const float before = 1.0f - 0x1p-14f; /* the surface that it may lie in */
+    vint own           = vsplat_int(t->s->light_info[l].owner);
+    vray ray           = t->rays[k];
+    vmask blocked      = { 0 };
+    vmask first        = met & ~state_has(t, k, PASSED);
+    ray.reach          = vselect(first, hit->dist * before, vsplat(1.0f));
+    passed->share      = vspread((vec3){ 1, 1, 1 });
+    passed->solids     = (vmask){ 0 };
+    shadow_trace(t->s, &ray, &first, &own, 1, RAYS_INCOHERENT, &blocked, passed);
+    return first & ~blocked & ~passed->solids;
+}
+
 /* Lamp l, where the rays of packet k meet it before what they met. */
 static void add_lamp_met(path_tracer *t, int k, int l, vmask looking)
 {
-    const scene *s    = t->s;
-    const light *lamp = s->lights[l];
+    const light *lamp = t->s->lights[l];
     vlight_hit hit;
-    vvec3 wi   = t->rays[k].direction;
-    vmask seen = lamp->type->hit(lamp, &t->rays[k].origin, &wi, looking, &hit);
-    seen       = seen & (hit.dist < t->hits[k].distance);
+    vvec3 wi       = t->rays[k].direction;
+    vmask met      = lamp->type->hit(lamp, &t->rays[k].origin, &wi, looking, &hit);
+    vmask seen     = met & (hit.dist < t->hits[k].distance);
+    vpassed passed = { .share = vspread((vec3){ 1, 1, 1 }) };
+    vmask asked    = met & (load(t, LAMP_PDF, k) < INFINITY);
+    if (t->s->light_info[l].owner && vany(asked))
+        seen = (seen & ~asked) | see_past_body(t, k, l, &hit, asked, &passed);
     if (!vany(seen))
         return;
-    vfloat pdf   = load(t, LAMP_PDF, k);
-    vfloat share = first_of(t, k);
-    vmask asked  = seen & (pdf < INFINITY);
-    if (vany(asked)) {
-        vsurface before = place_before(t, k);
-        vfloat other    = direct_lamp_pdf(s, &before, &wi, l, state_has(t, k, AROUND), asked);
-        share           = share * power_heuristic(pdf, vkeep(asked, other));
-    }
-    vrgb all = vscale(vmul(load3(t, WORTH, k), hit.radiance), share);
+    vrgb radiance = vmul(hit.radiance, vselect3(asked, passed.share, vspread((vec3){ 1, 1, 1 })));
+    vrgb all      = vscale(vmul(load3(t, WORTH, k), radiance), lamp_share(t, k, l, seen));
     add(t, ~state_has(t, k, SCATTERED), k, vkeep3(seen, all), vsplat_int(l));
 }
 
@@ -213,8 +240,9 @@ void path_add_lamps_met(path_tracer *t)
         vmask looking = t->active[k] & (load(t, LAMP_PDF, k) >= 0.0f);
         if (!vany(looking))
             continue;
-        vray ray  = t->rays[k];
-        ray.reach = t->hits[k].distance;
+        vray ray = t->rays[k];
+        if (!t->s->owners) /* whose bodies may hide them */
+            ray.reach = t->hits[k].distance;
         int count = lamp_boxes_met(t->boxes, &ray, looking, t->list);
         for (int i = 0; i < count; i++)
             add_lamp_met(t, k, t->list[i], looking);

@@ -32,6 +32,7 @@ enum {
 enum {
     SCATTERED = 1, /* it has left its beginning other than straight on */
     AROUND    = 2, /* where it was last, light from below the horizon counts */
+    PASSED    = 4, /* it has gone straight on through something since */
 };
 
 struct path_tracer {

@@ -9,9 +9,9 @@ enum { MOST_HITS = 8 /* at once */, MOST_ROUNDS = 64 };
 
 /* A ray on its way through hollow surfaces. */
 typedef struct passage {
-    vrgb share;  /* of light that passed the faces so far */
-    vrgb depth;  /* optical depth of the solids so far, by where the ray went in and out */
-    vrgb inside; /* 1/m: absorption of the solids that it is in, as far as it is known */
+    vpassed faces; /* so far */
+    vrgb depth;    /* optical depth of the solids so far, by where the ray went in and out */
+    vrgb inside;   /* 1/m: absorption of the solids that it is in, as far as it is known */
 } passage;
 
 static vrgb absorption_of(const scene *s, vint index, vmask active)
@@ -25,39 +25,49 @@ static vrgb absorption_of(const scene *s, vint index, vmask active)
     return sum;
 }
 
-/* One face more, `gone` m along the ray. */
+static vrgb not_below_0(vrgb a)
+{
+    const vfloat zero = vsplat(0.0f);
+    return (vrgb){ vmax(a.x, zero), vmax(a.y, zero), vmax(a.z, zero) };
+}
+
+/* One face more, `gone` m along the ray. Out of a solid that it began in it comes as out of none.
+ */
 static void pass_face(const scene *s, const vray *ray, const vhit *hit, vfloat gone, vmask met,
                       passage *p)
 {
     vsurface at;
     vshading shading;
     scene_shade(s, hit, &ray->direction, vsplat(0.0f), met, &at, &shading);
-    vrgb through = materials_through(s->materials, at.material, &shading, met);
-    p->share     = vselect3(met, vmul(p->share, through), p->share);
+    vrgb through   = materials_through(s->materials, at.material, &shading, met);
+    p->faces.share = vselect3(met, vmul(p->faces.share, through), p->faces.share);
     if (!s->solids)
         return;
-    vrgb sigma  = absorption_of(s, at.material, met);
-    vfloat sign = vselect(shading.front, vsplat(-1.0f), vsplat(1.0f));
-    p->depth    = vadd(p->depth, vscale(sigma, sign * vkeep(met, gone)));
-    p->inside   = vsub(p->inside, vscale(sigma, sign));
+    vint does       = vgather_int(s->material_does, vkeep_int(met, at.material));
+    p->faces.solids = p->faces.solids | (met & ((does & DOES_SOLID) != 0));
+    vrgb sigma      = absorption_of(s, at.material, met);
+    vfloat sign     = vselect(shading.front, vsplat(-1.0f), vsplat(1.0f));
+    p->depth        = vadd(p->depth, vscale(sigma, sign * vkeep(met, gone)));
+    p->inside       = not_below_0(vsub(p->inside, vscale(sigma, sign)));
 }
 
-static vfloat passed(vfloat depth)
+static vfloat unabsorbed(vfloat depth)
 {
     const float nepers = 1.44269504f; /* log2(e) */
     return vexp2(-nepers * vmax(depth, vsplat(0.0f)));
 }
 
 /* Where the ray ends within a solid, the rest of its way is in there too. */
-static vrgb arrives(const scene *s, const passage *p, vfloat reach)
+static vpassed arrives(const scene *s, const passage *p, vfloat reach)
 {
+    vpassed all = p->faces;
     if (!s->solids)
-        return p->share;
-    vfloat far  = vselect(reach < INFINITY, reach, vsplat(0.0f));
-    vfloat zero = vsplat(0.0f);
-    vrgb left   = { vmax(p->inside.x, zero), vmax(p->inside.y, zero), vmax(p->inside.z, zero) };
-    vrgb depth  = vadd(p->depth, vscale(left, far));
-    return vmul(p->share, (vrgb){ passed(depth.x), passed(depth.y), passed(depth.z) });
+        return all;
+    vfloat far = vselect(reach < INFINITY, reach, vsplat(0.0f));
+    vrgb depth = vadd(p->depth, vscale(p->inside, far));
+    all.share =
+        vmul(all.share, (vrgb){ unabsorbed(depth.x), unabsorbed(depth.y), unabsorbed(depth.z) });
+    return all;
 }
 
 /* The ray from behind the last of a full list of hits on. */
@@ -72,11 +82,11 @@ static vray behind(const scene *s, const vray *ray, const vhit *last)
     return rest;
 }
 
-static vrgb follow(const scene *s, const vray *from, vint spare, vmask active)
+static vpassed follow(const scene *s, const vray *from, vint spare, vmask active)
 {
     vfloat gone = { 0 };
     vray ray    = *from;
-    passage p   = { .share = vspread((vec3){ 1, 1, 1 }) };
+    passage p   = { .faces.share = vspread((vec3){ 1, 1, 1 }) };
     for (int round = 0; round < MOST_ROUNDS && vany(active); round++) {
         vhit hits[MOST_HITS];
         world_hollow_hits(s->world, &ray, &active, &spare, 1, MOST_HITS, hits);
@@ -87,17 +97,18 @@ static vrgb follow(const scene *s, const vray *from, vint spare, vmask active)
             pass_face(s, &ray, &hits[i], gone + hits[i].distance, met, &p);
         }
         const vhit *last = &hits[MOST_HITS - 1];
-        active           = active & (last->instance >= 0) & (vrgb_luminance(p.share) > 0.0f);
+        active           = active & (last->instance >= 0) & (vrgb_luminance(p.faces.share) > 0.0f);
         if (!vany(active))
             break;
         gone = gone + vkeep(active, last->distance);
         ray  = behind(s, &ray, last);
     }
+    p.faces.share = vkeep3(~active, p.faces.share); /* through more than can be looked at */
     return arrives(s, &p, from->reach);
 }
 
 int64_t shadow_trace(const scene *s, const vray *rays, const vmask *asked, const vint *spare,
-                     int packets, ray_hint hint, vmask *blocked, vrgb *passes)
+                     int packets, ray_hint hint, vmask *blocked, vpassed *passed)
 {
     int64_t count = 0;
     for (int k = 0; k < packets; k++)
@@ -106,11 +117,11 @@ int64_t shadow_trace(const scene *s, const vray *rays, const vmask *asked, const
         return 0;
     world_any_hit(s->world, rays, asked, s->owners ? spare : NULL, packets, hint, blocked);
     for (int k = 0; s->hollow && k < packets; k++) {
-        passes[k]  = vspread((vec3){ 1, 1, 1 });
         vmask open = asked[k] & ~blocked[k];
+        vint own   = s->owners ? spare[k] : vsplat_int(0);
+        passed[k]  = (vpassed){ .share = vspread((vec3){ 1, 1, 1 }) };
         if (vany(open))
-            passes[k] = vselect3(
-                open, follow(s, &rays[k], s->owners ? spare[k] : vsplat_int(0), open), passes[k]);
+            passed[k] = follow(s, &rays[k], own, open);
     }
     return count;
 }

@@ -10,10 +10,16 @@
 
 #include "sim/scene.h"
 
-/* For each asked ray, whether it is blocked and, in a scene with hollow surfaces, the share of
- * light that passes, by channel; elsewhere `passes` is left alone, and may be NULL. `spare` as
- * world_any_hit() has it. Returns how many rays were traced. */
+/* What a ray has passed through, in a scene with hollow surfaces. */
+typedef struct vpassed {
+    vrgb share;   /* of light, by channel */
+    vmask solids; /* faces of solids that refract were among it */
+} vpassed;
+
+/* For each asked ray, whether it is blocked and what it has passed; where no surface is hollow,
+ * `passed` is left alone, and may be NULL. `spare` as world_any_hit() has it. Returns how many rays
+ * were traced. */
 int64_t shadow_trace(const scene *s, const vray *rays, const vmask *asked, const vint *spare,
-                     int packets, ray_hint hint, vmask *blocked, vrgb *passes);
+                     int packets, ray_hint hint, vmask *blocked, vpassed *passed);
 
 #endif

@@ -6,6 +6,7 @@
 #define _GNU_SOURCE
 #include "tests/box_gltf.h"
 #include "tests/folder.h"
+#include "tests/lab_picture.h"
 #include "tests/program.h"
 #include "tests/test.h"
 
@@ -162,18 +163,11 @@ static void run_threads(const char *folder, int width)
     }
 }
 
-TEST(lamps_of_all_kinds_are_the_same_at_every_width_and_on_every_thread)
+/* Fails unless grid and view of study.yaml leave the same files at every width that is there. */
+static void assert_same_everywhere(const char *folder, const char *const *names, int count)
 {
-    static const char *const names[] = { "g.csv", "g.exr", "c.csv", "c.exr", "v.exr", "v.png" };
-    char *folder                     = folder_of_study(lamps), one[64], other[64];
-    program_result r                 = { 0 };
-    int first                        = 0; /* width */
-    box_gltf_write(folder, "box.gltf", (double[]){ 2, 1, 0.6 }, (double[]){ 4, 2, 0.9 }, 1.0);
-    folder_write(folder, "box.ies", IES("0.2 0.3 0.1"));
-    folder_write(folder, "spot.ies", IES("0 0 0"));
-    LUX4(folder, 0, &r, "photometry", path_in(project_root(), "data/office/panel.ldt"), "--write",
-         "panel.ldt");
-    program_free(&r);
+    char one[64], other[64];
+    int first = 0; /* width */
     for (int width = 1; width <= 8; width = width == 1 ? 4 : 2 * width) {
         char program[4096];
         snprintf(program, sizeof program, "%s/build/release-%d/lux4", project_root(), width);
@@ -182,19 +176,131 @@ TEST(lamps_of_all_kinds_are_the_same_at_every_width_and_on_every_thread)
         run_threads(folder, width);
         first = first ? first : width;
         for (int i = 0; i < 4; i++)
-            for (int n = 0; n < 6; n++) {
+            for (int n = 0; n < count; n++) {
                 snprintf(one, sizeof one, "%d-0-%d/%s", first, i >> 1, names[n]);
                 snprintf(other, sizeof other, "%d-%d-%d/%s", width, i & 1, i >> 1, names[n]);
                 assert_same_bytes(path_in(folder, one), path_in(folder, other));
             }
     }
+}
+
+TEST(lamps_of_all_kinds_are_the_same_at_every_width_and_on_every_thread)
+{
+    static const char *const names[] = { "g.csv", "g.exr", "c.csv", "c.exr", "v.exr", "v.png" };
+    char *folder                     = folder_of_study(lamps);
+    program_result r                 = { 0 };
+    box_gltf_write(folder, "box.gltf", (double[]){ 2, 1, 0.6 }, (double[]){ 4, 2, 0.9 }, 1.0);
+    folder_write(folder, "box.ies", IES("0.2 0.3 0.1"));
+    folder_write(folder, "spot.ies", IES("0 0 0"));
+    LUX4(folder, 0, &r, "photometry", path_in(project_root(), "data/office/panel.ldt"), "--write",
+         "panel.ldt");
+    program_free(&r);
+    assert_same_everywhere(folder, names, 6);
     folder_free(folder);
+}
+
+/* ---- materials ------------------------------------------------------------------------------- */
+
+/* All but the names of what is measured */
+static const char all_materials[] =
+    "lux4: 1\nroom: {size: [6, 4, 2.8], reflectance: 0.5}\n"
+    "scene: [glow.gltf, picture.gltf, bumps.gltf, screen.gltf, metal.gltf, plastic.gltf, "
+    "frost.gltf,"
+    " block.gltf, {file: plate.gltf, at: [[1, 1, 0.5], [2, 1, 0.5]]}, paint.gltf, brushed.gltf,"
+    " window.gltf, blind.gltf, mirror.gltf, phong.gltf]\n"
+    "lights:\n"
+    "  - {type: rect, at: [2, 2, 2.7], size: [1, 0.5], lumens: 2000, group: a, color: 3000K}\n"
+    "  - {type: point, at: [4, 1, 2], lumens: 900}\n"
+    "materials:\n"
+    "  - {match: Plate, transmittance: [0.8, 0.7, 0.5], pane: box}\n"
+    "  - {match: Mirror, mirror: 0.9}\n"
+    "  - {match: Phong, reflectance: 0.2, specular: 0.5, exponent: 90}\n"
+    "  - {match: Paint, brdf: %1$s/data/materials/carpaint.brdf}\n"
+    "  - {match: Brushed, brdf: %1$s/data/materials/brushed.brdf, up: [1, 0, 0]}\n"
+    "  - {match: Window, brdf: %1$s/data/materials/glazing.xml}\n"
+    "  - {match: Blind, brdf: %1$s/data/materials/blind.xml}\n"
+    "grids:\n  - {name: g, on: room, height: 0.3, spacing: 1.2}\n"
+    "views: [{name: v, eye: [0.5, 0.3, 2], target: [4, 3, 0.5], fov: 80, size: [24, 18]}]\n";
+
+/* A square of 0.7 m, leaning, number i of a row of them. */
+static quad square_of_row(int i)
+{
+    double x = 0.6 + 0.9 * (i % 6), y = 1.0 + i / 6;
+    return (quad){
+        { { x, y, 0.5 }, { x + 0.6, y, 0.5 }, { x + 0.6, y + 0.3, 1.1 }, { x, y + 0.3, 1.1 } }
+    };
+}
+
+#define LOOKS(name, text) "\"name\":\"" name "\",\"pbrMetallicRoughness\":{" text "}"
+#define CLEAR             "\"KHR_materials_transmission\":{\"transmissionFactor\":1}"
+
+static void write_materials(lab *l)
+{
+    static const uint8_t four[16] = { 188, 0,   51,  255, 0,   188, 128, 90,
+                                      151, 128, 188, 0,   128, 100, 200, 255 };
+    static const struct {
+        const char *name, *looks;
+    } flat[] = {
+        { "metal.gltf", LOOKS("Metal", "\"roughnessFactor\":0.2") },
+        { "plastic.gltf", LOOKS("Plastic", "\"metallicFactor\":0,\"roughnessFactor\":0.4") },
+        { "frost.gltf",
+          LOOKS("Frost", "\"metallicFactor\":0,\"roughnessFactor\":0.3") ",\"extensions\":{" CLEAR
+                                                                         "}" },
+        { "paint.gltf", LOOKS("Paint", "") },
+        { "brushed.gltf", LOOKS("Brushed", "") },
+        { "window.gltf", LOOKS("Window", "") },
+        { "blind.gltf", LOOKS("Blind", "") },
+        { "mirror.gltf", LOOKS("Mirror", "") },
+        { "phong.gltf", LOOKS("Phong", "") },
+    };
+    const picture p = { 2, 2, four, "" };
+    quad q, box[6];
+    int count = 0;
+    for (; count < 9; count++) {
+        q = square_of_row(count);
+        lab_quads(l, flat[count].name, &q, 1, flat[count].looks);
+    }
+    q = square_of_row(count++);
+    lab_picture(l, "picture.gltf", &q, &p,
+                LOOKS("Picture", "\"baseColorTexture\":{\"index\":0},\"metallicRoughnessTexture\":"
+                                 "{\"index\":0}"));
+    q = square_of_row(count++);
+    lab_picture(l, "bumps.gltf", &q, &p,
+                LOOKS("Bumps", "\"metallicFactor\":0") ",\"normalTexture\":{\"index\":0}");
+    q = square_of_row(count++);
+    lab_picture(l, "screen.gltf", &q, &p,
+                LOOKS("Screen", "\"baseColorTexture\":{\"index\":0}") ",\"alphaMode\":\"BLEND\"");
+    q = square_of_row(count++);
+    lab_quads(l, "glow.gltf", &q, 1, lab_glow(l, 2000.0));
+    quads_of_box((dvec3){ 3, 3, 0 }, (dvec3){ 3.5, 3.4, 0.8 }, box);
+    lab_quads(
+        l, "block.gltf", box, 6,
+        LOOKS("Block",
+              "\"metallicFactor\":0,\"roughnessFactor\":0") ",\"extensions\":{" CLEAR
+                                                            ",\"KHR_materials_volume\":{"
+                                                            "\"thicknessFactor\":1,"
+                                                            "\"attenuationDistance\":1,"
+                                                            "\"attenuationColor\":[0.5,0.8,0.9]}}");
+    quads_of_box((dvec3){ 0, 0, 0 }, (dvec3){ 0.4, 0.01, 0.6 }, box);
+    lab_quads(l, "plate.gltf", box, 6, LOOKS("Plate", ""));
+}
+
+TEST(materials_of_all_kinds_are_the_same_at_every_width_and_on_every_thread)
+{
+    static const char *const names[] = { "g.csv", "g.exr", "v.exr", "v.png" };
+    lab l;
+    lab_open(&l);
+    write_materials(&l);
+    lab_write(&l, "study.yaml", all_materials, project_root());
+    assert_same_everywhere(l.folder, names, 4);
+    lab_close(&l);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lamps_of_all_kinds_are_the_same_at_every_width_and_on_every_thread),
+        cmocka_unit_test(materials_of_all_kinds_are_the_same_at_every_width_and_on_every_thread),
         cmocka_unit_test(a_room_is_the_same_at_every_width),
         cmocka_unit_test(a_view_is_the_same_at_every_width),
         cmocka_unit_test(the_office_is_the_same_at_every_width),

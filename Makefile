@@ -256,7 +256,7 @@ install: all $B/public/liblux4.a
 	install -m 644 $B/public/liblux4.a $(TO)/lib
 	install -m 644 sim/lux4.h $(TO)/include/lux4
 	install -m 644 sim/lux4.1 $(TO)/share/man/man1
-	install -m 644 STUDY.md $(TO)/share/lux4
+	install -m 644 STUDY.md MATERIALS.md $(TO)/share/lux4
 	$Qfor d in $(SHIPPED); do for f in $$d/*.yaml $$d/*.glb $$d/*.ies $$d/*.ldt $$d/*.brdf $$d/*.xml; do \
 	  [ ! -e $$f ] || install -m 644 $$f $(TO)/share/lux4/$${d#data/} || exit 1; done; done
 	@printf '%s\n' 'prefix=$(PREFIX)' 'Name: lux4' 'Description: lighting-design simulation' 'Version: $(VERSION)' \

@@ -17,7 +17,7 @@ static const char *const sentences[TALLY_KINDS] = {
     [TALLY_NO_PICTURE]  = "textures have no picture that lux4 reads: taken as white",
     [TALLY_WEBP]        = "textures in WebP cannot be read: the picture beside it is taken",
     [TALLY_OCCLUSION]   = "materials have an occlusion texture (shading, not light), ignored",
-    [TALLY_THICKNESS]   = "materials have a thickness texture: their thickness is taken instead",
+    [TALLY_THICKNESS]   = "materials have a thickness texture, ignored: their own shape counts",
     [TALLY_NO_TEXCOORD] = "primitives lack coordinates that their textures go by: taken as 0",
     [TALLY_NORMAL]      = "triangles have normals that are none, or of the back: they are flat",
     [TALLY_COLOR]       = "primitives have vertex colours (COLOR_0), which are ignored",
@@ -65,6 +65,7 @@ static const char *const simulated[] = {
     "KHR_materials_ior",
     "KHR_materials_specular",
     "KHR_materials_volume",
+    "KHR_materials_unlit",
     "KHR_texture_transform",
     "EXT_texture_webp",
     NULL,
@@ -72,7 +73,6 @@ static const char *const simulated[] = {
 
 /* They change looks alone: a scene is whole without them. */
 static const char *const looks[] = {
-    "KHR_materials_unlit",
     "KHR_materials_clearcoat",
     "KHR_materials_sheen",
     "KHR_materials_iridescence",

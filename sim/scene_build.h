@@ -43,6 +43,8 @@ typedef struct scene_build {
     int32_t owner_count;
     list materials, material_info, lights, light_info, cameras, groups;
     list webs;                 /* const scene_web *, by name */
+    int bounded_count;         /* of materials that reflected too much */
+    const char *first_bounded; /* the name of the first of them */
     const void **tables;       /* of study->materials: brdf or bsdf, once it is read; NULL */
     list emitters, emitter_of; /* const light *; int32_t */
     int64_t *first_emitter;    /* as in the scene */

@@ -87,11 +87,14 @@ static const material *make_pane(scene_build *b, const material_source *s,
 static const void *table_of(scene_build *b, const study_material *m)
 {
     const void **table = &b->tables[m - b->study->materials];
+    lux_error why      = { 0 };
     if (!*table)
         *table = m->surface == SURFACE_BSDF
-                     ? (const void *)bsdf_read(b->a, m->brdf, b->notices, b->err)
-                     : (const void *)brdf_read(b->a, m->brdf, b->notices, b->err);
-    return *table;
+                     ? (const void *)bsdf_read(b->a, m->brdf, b->notices, &why)
+                     : (const void *)brdf_read(b->a, m->brdf, b->notices, &why);
+    if (!*table && why.code == ERR_IO) /* the study names what is not there */
+        return study_failed(b->study, m->where, b->err, ERR_IO, "%s", why.text);
+    return *table ? *table : failed(b->err, why.code, "%s", why.text);
 }
 
 static const material *make_glazing(scene_build *b, const bsdf *data, const bsdf_desc *d,

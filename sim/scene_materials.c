@@ -5,7 +5,9 @@
 #include "core/color.h"
 #include "sim/scene_build.h"
 
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Light dies out nowhere in a closed room whose surfaces give all of it back, and its illuminance
  * has no finite value. The whitest surfaces there are, of sintered PTFE, reflect 99 %. */
@@ -18,13 +20,22 @@ static float bounded(float share, float mean)
 
 vec3 material_bounded(scene_build *b, const material_source *s, vec3 share, vec3 mean)
 {
-    vec3 to = { bounded(share.x, mean.x), bounded(share.y, mean.y), bounded(share.z, mean.z) };
-    if (s->used && (to.x < share.x || to.y < share.y || to.z < share.z))
-        notice_add(b->notices,
-                   "%s: some materials reflect more than 99.5 %%, as no real surface does: "
-                   "taken as 99.5 %% (lux4 check lists them)",
-                   b->study->path);
+    vec3 to   = { bounded(share.x, mean.x), bounded(share.y, mean.y), bounded(share.z, mean.z) };
+    bool less = to.x < share.x || to.y < share.y || to.z < share.z;
+    if (s->used && less && b->bounded_count++ == 0)
+        b->first_bounded = s->from->name;
     return to;
+}
+
+static void tell_bounded(const scene_build *b)
+{
+    int n = b->bounded_count;
+    if (n > 0)
+        notice_add(b->notices,
+                   "%s: %d material%s more than 99.5 %%, as no real surface does, first \"%s\": "
+                   "taken as 99.5 %%",
+                   b->study->path, n, n > 1 ? "s reflect" : " reflects",
+                   b->first_bounded[0] ? b->first_bounded : "(unnamed)");
 }
 
 /* ---- what is known --------------------------------------------------------------------------- */
@@ -108,6 +119,27 @@ static const study_material *match(const scene_build *b, const char *name)
     return NULL;
 }
 
+/* "`Floor`, `Wall` and 5 more": what could have been meant. */
+static void list_names(const scene_build *b, char *text, size_t size)
+{
+    const size_t of_rest       = 24; /* " and 4294967295 more" */
+    const scene_material *info = b->material_info.items;
+    size_t length = 0, left = 0;
+    text[0] = '\0';
+    for (size_t k = 0; k < b->material_info.count; k++) {
+        const char *name = info[k].name;
+        if (!info[k].used || !name[0])
+            continue;
+        if (left > 0 || length + strlen(name) + 4 + of_rest > size)
+            left++;
+        else
+            length +=
+                (size_t)snprintf(text + length, size - length, "%s`%s`", length ? ", " : "", name);
+    }
+    if (left > 0)
+        snprintf(text + length, size - length, "%s%zu more", length ? " and " : "", left);
+}
+
 /* Each pattern must match something: a misspelt one would be ignored in silence. */
 static bool all_patterns_match(scene_build *b)
 {
@@ -115,11 +147,15 @@ static bool all_patterns_match(scene_build *b)
     for (int i = 0; i < b->study->material_count; i++) {
         const study_material *m = &b->study->materials[i];
         bool found              = false;
+        char names[240];
         for (size_t k = 0; k < b->material_info.count && !found; k++)
             found = study_match(m->match, info[k].name);
-        if (!found)
-            return study_failed(b->study, m->where, b->err, ERR_ARGUMENT,
-                                "`%s` matches no material (lux4 check lists them)", m->match);
+        if (found)
+            continue;
+        list_names(b, names, sizeof names);
+        return study_failed(b->study, m->where, b->err, ERR_ARGUMENT,
+                            "`%s` matches no material; there are %s", m->match,
+                            names[0] ? names : "none with a name");
     }
     return true;
 }
@@ -224,5 +260,6 @@ bool build_materials(scene_build *b)
             return false;
     }
     b->first_material = first;
+    tell_bounded(b);
     return all_patterns_match(b);
 }

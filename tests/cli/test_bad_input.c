@@ -136,7 +136,8 @@ TEST(what_is_wrong_in_a_study_is_told_with_its_place)
         { ROOM "views: [{name: v, eye: [1, 1, 1], target: [1, 1, 1]}]\n", "the same place" },
         { ROOM "lights: [{type: point, at: [1, 1, 1], intensity: -1}]\n", "a number >= 0" },
         { ROOM "lights: [{type: point, at: [1, 1, 1]}]\n", "study.yaml:5:" },
-        { ROOM "materials: [{match: Nix*, reflectance: 0.5}]\n", "`Nix*` matches no material" },
+        { ROOM "materials: [{match: Nix*, reflectance: 0.5}]\n",
+          "`Nix*` matches no material; there are `room: ceiling`, `room: walls`, `room: floor`" },
         { "lux4: 1\nroom: {size: [4, 3, 2.5], reflectance: 0.5}\n"
           "grids: [{name: g, on: room, height: 1, spacing: 1e-9}]\n",
           "study.yaml:3:" },

@@ -109,7 +109,8 @@ TEST(a_matt_paint_reflects_its_base_colour)
     const scene *s = scene_told(&l, STUDY, &told);
     vec3 r         = info_of(s, "Wall")->reflectance;
     assert_true(r.x == 0.1f && r.y == 0.2f && r.z == 0.995f); /* no more than any surface */
-    assert_true(noticed(&told, "some materials reflect more than 99.5 %"));
+    assert_true(noticed(
+        &told, "1 material reflects more than 99.5 %, as no real surface does, first \"Wall\""));
     assert_false(s->hollow || s->narrow || s->textured || s->smooth || s->solids);
     assert_true(s->reflects);
     lab_close(&l);
@@ -194,7 +195,7 @@ TEST(a_study_replaces_all_but_glow_and_holes)
     lab_close(&l);
 }
 
-TEST(tables_are_read_once_and_their_errors_are_those_of_the_file)
+TEST(tables_that_are_not_there_are_told_where_the_study_names_them)
 {
     lab l;
     lab_open(&l);
@@ -202,9 +203,15 @@ TEST(tables_are_read_once_and_their_errors_are_those_of_the_file)
     notices told;
     lab_quads(&l, "model.gltf", &floor_quad, 1, "\"name\":\"It\"");
     assert_null(try_scene(&l, STUDY "materials: [{match: It, brdf: none.brdf}]\n", &told, &err));
-    assert_non_null(strstr(err.text, "none.brdf"));
+    assert_non_null(strstr(err.text, "/study.yaml:4:13: "));
+    assert_non_null(strstr(err.text, "none.brdf: no such file"));
+    err = (lux_error){ 0 };
     assert_null(try_scene(&l, STUDY "materials: [{match: It, brdf: none.xml}]\n", &told, &err));
-    assert_non_null(strstr(err.text, "none.xml"));
+    assert_non_null(strstr(err.text, "/study.yaml:4:13: "));
+    err = (lux_error){ 0 };
+    lab_write(&l, "poor.brdf", "lux4 brdf 1\nparameters none\n");
+    assert_null(try_scene(&l, STUDY "materials: [{match: It, brdf: poor.brdf}]\n", &told, &err));
+    assert_non_null(strstr(err.text, "/poor.brdf:2: "));
     lab_close(&l);
 }
 
@@ -317,7 +324,7 @@ int main(void)
         cmocka_unit_test(a_pane_of_gltf_lets_base_colour_through),
         cmocka_unit_test(a_solid_absorbs_by_its_distance_in_the_study),
         cmocka_unit_test(a_study_replaces_all_but_glow_and_holes),
-        cmocka_unit_test(tables_are_read_once_and_their_errors_are_those_of_the_file),
+        cmocka_unit_test(tables_that_are_not_there_are_told_where_the_study_names_them),
         cmocka_unit_test(closed_plates_of_glass_are_taken_as_one_pane),
         cmocka_unit_test(plates_are_told_by_their_size_in_the_scene),
         cmocka_unit_test(studies_are_told_where_pane_and_box_do_not_fit),

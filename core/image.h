@@ -49,18 +49,17 @@ bool image_read_exr(const char *path, arena *a, image *out, lux_error *err);
 /* Writes an 8-bit sRGB picture (PNG by its name) of width * height * 3 bytes, top row first. */
 bool image_write_rgb8(const char *path, int width, int height, const uint8_t *rgb, lux_error *err);
 
-/* The mean colour of a picture in any format OpenImageIO reads: linear Rec. 709 in mean[0..2]
- * (8- and 16-bit pictures are taken as sRGB if `srgb`), alpha in mean[3]. From memory if bytes
- * is not NULL (`path` then names it in errors), else from the file at path. */
-bool image_mean(const char *path, const void *bytes, size_t size, bool srgb, float mean[4],
-                lux_error *err);
+/* Whether pictures other than EXR can be read and written here; else false with *err, to be told
+ * before long work rather than after it. */
+bool image_pictures_ready(lux_error *err);
 
-/* A whole picture, from the same places, as texture.h wants it: (*rgba)[4 * (y * *width + x) + c]
- * in a, the top row first. Integers are decoded from sRGB if `srgb`, alpha never; floats are taken
- * as linear. Grey is all three channels, alpha where there is none 1; of more than four channels
- * the first four count. Colours are not multiplied by alpha, unless the file has only such ones
- * (EXR). False, with *err, for what is no picture, is cut off where its format tells, has a number
- * that is not finite, more than 32768 pixels a side, or more than 4 GB as four floats. */
+/* A whole picture in any format OpenImageIO reads, as texture.h wants it: (*rgba)[4 * (y * *width +
+ * x) + c] in a, the top row first. From memory if bytes is not NULL (`path` then names it in
+ * errors), else from the file at path. Integers are decoded from sRGB if `srgb`, alpha never;
+ * floats are taken as linear. Grey is all three channels, alpha where there is none 1; of more than
+ * four channels the first four count. Colours are not multiplied by alpha, unless the file has only
+ * such ones (EXR). False, with *err, for what is no picture, is cut off where its format tells, has
+ * a number that is not finite, more than 32768 pixels a side, or more than 4 GB as four floats. */
 bool image_load_rgba(const char *path, const void *bytes, size_t size, bool srgb, arena *a,
                      int *width, int *height, float **rgba, lux_error *err);
 

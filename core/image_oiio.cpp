@@ -20,12 +20,8 @@ namespace
 constexpr int MOST_CHANNELS = 64;
 constexpr int STRIP         = 64; // rows that are decoded at a time
 
-struct limits {
-    int side;             // pixels
-    OIIO::imagesize_t gb; // decoded, and as four floats where the whole picture is kept
-};
-constexpr limits OF_MEAN = { 16384, 1 };
-constexpr limits OF_LOAD = { 32768, 4 };
+constexpr int MOST_SIDE             = 32768; // pixels
+constexpr OIIO::imagesize_t MOST_GB = 4;     // decoded, and as four floats a pixel
 
 bool refuse(oiio_message *why, const std::string &text)
 {
@@ -104,19 +100,19 @@ std::vector<float> srgb_table()
     return table;
 }
 
-bool size_allowed(const OIIO::ImageSpec &s, limits most, bool whole, oiio_message *why)
+bool size_allowed(const OIIO::ImageSpec &s, oiio_message *why)
 {
     if (s.deep || s.depth > 1)
         return refuse(why, "a flat picture was expected");
-    if (s.width < 1 || s.height < 1 || s.width > most.side || s.height > most.side)
+    if (s.width < 1 || s.height < 1 || s.width > MOST_SIDE || s.height > MOST_SIDE)
         return refuse(why, std::to_string(s.width) + " x " + std::to_string(s.height) +
-                               " pixels, at most " + std::to_string(most.side) +
+                               " pixels, at most " + std::to_string(MOST_SIDE) +
                                " a side are read");
     const OIIO::imagesize_t rgba = OIIO::imagesize_t(s.width) * OIIO::imagesize_t(s.height) * 16;
-    const OIIO::imagesize_t size = std::max(s.image_bytes(true), whole ? rgba : 0);
-    if (s.nchannels < 1 || s.nchannels > MOST_CHANNELS || size > most.gb << 30)
+    const OIIO::imagesize_t size = std::max(s.image_bytes(true), rgba);
+    if (s.nchannels < 1 || s.nchannels > MOST_CHANNELS || size > MOST_GB << 30)
         return refuse(why, std::to_string(s.width) + " x " + std::to_string(s.height) +
-                               " pixels are more than " + std::to_string(most.gb) + " GB, or " +
+                               " pixels are more than " + std::to_string(MOST_GB) + " GB, or " +
                                std::to_string(MOST_CHANNELS) + " channels, when decoded");
     return true;
 }
@@ -175,8 +171,7 @@ bool each_strip(OIIO::ImageInput &in, const OIIO::ImageSpec &s, bool srgb, oiio_
 }
 
 // Opens a picture of allowed size, for f.
-template <typename F>
-bool with_picture(const oiio_source &from, limits most, bool whole, oiio_message *why, F f)
+template <typename F> bool with_picture(const oiio_source &from, oiio_message *why, F f)
 {
     OIIO::Filesystem::IOMemReader memory(const_cast<void *>(from.bytes), from.size);
     const std::string name = from.bytes ? name_by_content(from) : from.name;
@@ -191,26 +186,7 @@ bool with_picture(const oiio_source &from, limits most, bool whole, oiio_message
     if (!in)
         return refuse(why, OIIO::geterror());
     const OIIO::ImageSpec s = in->spec();
-    return size_allowed(s, most, whole, why) && f(*in, s);
-}
-
-bool mean_of(OIIO::ImageInput &in, const OIIO::ImageSpec &s, bool srgb, float mean[4],
-             oiio_message *why)
-{
-    double sum[4] = { 0.0, 0.0, 0.0, 0.0 };
-    if (!each_strip(in, s, srgb, why, [&](const strip &rows) {
-            const size_t channels = size_t(rows.channels);
-            const size_t count    = size_t(s.width) * size_t(rows.rows) * channels;
-            for (size_t i = 0; i < count; i++)
-                sum[i % channels] += double(rows.values[i]);
-        }))
-        return false;
-    const double pixels = double(s.width) * double(s.height);
-    const bool grey     = s.nchannels < 3;
-    for (int c = 0; c < 3; c++)
-        mean[c] = float(sum[grey ? 0 : c] / pixels);
-    mean[3] = s.nchannels == 2 || s.nchannels >= 4 ? float(sum[grey ? 1 : 3] / pixels) : 1.0f;
-    return true;
+    return size_allowed(s, why) && f(*in, s);
 }
 
 bool load(OIIO::ImageInput &in, const OIIO::ImageSpec &s, bool srgb, oiio_place to,
@@ -239,20 +215,10 @@ bool lux4_oiio_encode(const oiio_picture *picture, oiio_sink to, oiio_message *w
     return guarded(why, [&] { return encode(*picture, to, why); });
 }
 
-bool lux4_oiio_mean(const oiio_source *from, float mean[4], oiio_message *why)
-{
-    return guarded(why, [&] {
-        return with_picture(*from, OF_MEAN, false, why, [&](auto &in, const auto &s) {
-            return mean_of(in, s, from->srgb, mean, why);
-        });
-    });
-}
-
 bool lux4_oiio_load(const oiio_source *from, oiio_place to, oiio_message *why)
 {
     return guarded(why, [&] {
-        return with_picture(*from, OF_LOAD, true, why, [&](auto &in, const auto &s) {
-            return load(in, s, from->srgb, to, why);
-        });
+        return with_picture(
+            *from, why, [&](auto &in, const auto &s) { return load(in, s, from->srgb, to, why); });
     });
 }

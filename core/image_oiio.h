@@ -43,11 +43,9 @@ typedef struct oiio_place {
 
 /* All return false, with *why, on failure; none lets an exception out. Any thread. */
 typedef bool oiio_encode_function(const oiio_picture *picture, oiio_sink to, oiio_message *why);
-typedef bool oiio_mean_function(const oiio_source *from, float mean[4], oiio_message *why);
 typedef bool oiio_load_function(const oiio_source *from, oiio_place to, oiio_message *why);
 
 oiio_encode_function lux4_oiio_encode;
-oiio_mean_function lux4_oiio_mean;
 oiio_load_function lux4_oiio_load;
 
 #ifdef __cplusplus

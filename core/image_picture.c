@@ -29,7 +29,6 @@ static const char *const PLACES[] = { "/", "/../lib/lux4/", "/../../", "/../../.
 static struct {
     pthread_once_t once;
     oiio_encode_function *encode;
-    oiio_mean_function *mean;
     oiio_load_function *load;
     char reason[200]; /* why there are no functions */
 } plugin = { .once = PTHREAD_ONCE_INIT };
@@ -75,21 +74,22 @@ static void load(void)
         return;
     /* POSIX has dlsym() give functions as objects; ISO C has no cast for that. */
     *(void **)&plugin.encode = dlsym(library, "lux4_oiio_encode");
-    *(void **)&plugin.mean   = dlsym(library, "lux4_oiio_mean");
     *(void **)&plugin.load   = dlsym(library, "lux4_oiio_load");
-    if (!plugin.encode || !plugin.mean || !plugin.load)
+    if (!plugin.encode || !plugin.load)
         snprintf(plugin.reason, sizeof plugin.reason, "it is of another version");
 }
 
 static bool plugin_ready(const char *path, lux_error *err)
 {
     pthread_once(&plugin.once, load);
-    if (plugin.encode && plugin.mean && plugin.load)
+    if (plugin.encode && plugin.load)
         return true;
     return failed(err, ERR_UNSUPPORTED,
                   "%s: pictures need " PLUGIN " and OpenImageIO (package libopenimageio2.4): %s",
                   path, plugin.reason);
 }
+
+bool image_pictures_ready(lux_error *err) { return plugin_ready("preview", err); }
 
 /* ---- using it --------------------------------------------------------------------------- */
 
@@ -211,19 +211,6 @@ static bool prepare(oiio_source *from, const char *path, arena *scratch, lux_err
     if (file)
         from->bytes = NULL; /* not all formats can be read from memory */
     return true;
-}
-
-bool image_mean(const char *path, const void *bytes, size_t size, bool srgb, float mean[4],
-                lux_error *err)
-{
-    arena scratch    = { 0 };
-    oiio_source from = { path, bytes, size, srgb };
-    oiio_message why = { "" };
-    bool ok          = prepare(&from, path, &scratch, err) && plugin_ready(path, err);
-    if (ok && !plugin.mean(&from, mean, &why))
-        ok = failed(err, ERR_FORMAT, "%s: cannot be read as a picture: %s", path, why.text);
-    arena_clear(&scratch);
-    return ok;
 }
 
 typedef struct picture {

@@ -90,6 +90,8 @@ static int render_command(const command_context *c, lux_error *err)
             !output_check(s->study, &c->line->place, v->name, extensions, EXTENSIONS, err))
             return exit_code_of(err, true);
     }
+    if (!image_pictures_ready(err))
+        return exit_code_of(err, false);
 
     totals all = { 0 };
     int code   = EXIT_DONE;

@@ -313,4 +313,15 @@ void texture_mean(const texture *t, float rgba[4])
         rgba[c] = t->mean[c];
 }
 
+double texture_share(const texture *t, float alpha)
+{
+    const level *l = &t->levels[0];
+    int width = (int)l->width, height = (int)l->height;
+    size_t count = 0;
+    for (int y = 1; y <= height; y++) /* within the frame */
+        for (int x = 1; x <= width; x++)
+            count += t->texels[4 * ((size_t)y * (size_t)l->stride + (size_t)x) + 3] >= alpha;
+    return (double)count / ((double)width * height);
+}
+
 uint64_t texture_bytes(const texture *t) { return t->bytes; }

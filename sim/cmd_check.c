@@ -105,19 +105,29 @@ static void print_share(vec3 c, int width)
     printf("%*s", width, text);
 }
 
+/* What passes the surface or its holes. */
+static vec3 let_through(const scene_material *m)
+{
+    vec3 t       = v3_scale(m->transmittance, (float)m->there);
+    double holes = 1.0 - m->there;
+    return (vec3){ (float)((double)t.x + holes), (float)((double)t.y + holes),
+                   (float)((double)t.z + holes) };
+}
+
 static bool is_dark(vec3 c) { return c.x == 0.0f && c.y == 0.0f && c.z == 0.0f; }
 
 /* What is not plain about a material. */
 static void print_notes(const scene_material *m)
 {
-    if (!is_dark(m->transmittance)) {
+    vec3 through = let_through(m);
+    if (!is_dark(through)) {
         printf("   lets through ");
-        print_share(m->transmittance, 0);
+        print_share(through, 0);
     }
     if (m->file) {
         fputs("   of ", stdout);
         print_words(stdout, m->file, 0, INT_MAX);
-        printf(", reciprocal to %.1f %%", 100.0 * m->reciprocity);
+        printf(", reciprocity error %.1f %%", 100.0 * m->reciprocity);
         if (m->scaled_by < 1.0)
             printf(", scaled by %.4g", m->scaled_by);
     }
@@ -148,7 +158,7 @@ static void print_materials(const scene *s)
         fputs("  ", stdout);
         print_words(stdout, m->name[0] ? m->name : "(unnamed)", width, INT_MAX);
         printf("   %-10s", m->kind);
-        print_share(m->reflectance, 17);
+        print_share(v3_scale(m->reflectance, (float)m->there), 17);
         print_notes(m);
     }
 }

@@ -14,7 +14,8 @@
 #include "sim/gltf.h"
 #include "sim/study.h"
 
-/* Colours are means over textures, and of what is there where there are holes. */
+/* Colours are means over textures, and of what is there where there are holes: of all light that
+ * meets it a surface reflects reflectance * there. */
 typedef struct scene_material {
     const char *name;     /* "room: walls" for those of the room */
     const char *kind;     /* material_type.name */
@@ -24,6 +25,7 @@ typedef struct scene_material {
     vec3 reflectance;     /* of diffuse light, on the front side */
     vec3 transmittance;   /* of diffuse light, straight and scattered */
     vec3 emission;        /* cd/m^2 */
+    double there;         /* [0, 1]: the share of it that is no hole */
     bool textured, bumpy; /* it has textures; a normal map */
     bool holes, box;      /* it has holes; of closed boxes of glass, each taken as one pane */
     bool overridden;      /* by the study's materials */

@@ -3,6 +3,7 @@
 #define PACKET_WIDTH    1
 #define texture_new     one_lane_texture_new /* beside the library's own */
 #define texture_mean    one_lane_texture_mean
+#define texture_share   one_lane_texture_share
 #define texture_bytes   one_lane_texture_bytes
 #define vtexture_lookup one_lane_vtexture_lookup
 #include "tests/one_lane_texture.h"

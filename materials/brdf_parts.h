@@ -16,7 +16,7 @@
 #include "core/table.h"
 #include "materials/brdf.h"
 
-enum { BRDF_MOST_PLACES = 4 << 20 };
+enum { BRDF_MOST_PLACES = 4 << 20, BRDF_MOST_AXIS = 2000 };
 
 /* Directions of wo for which the table is integrated, and from whose rows wi is drawn: albedo and
  * densities are linear between them. */

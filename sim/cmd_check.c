@@ -11,10 +11,16 @@ static const double mebi = 1024.0 * 1024.0;
 /* What a grid or view of that many sensors or pixels keeps while it runs, bytes. */
 static double bytes_of_sensors(double sensors) { return sensors * 350.0; }
 static double bytes_of_pixels(double pixels) { return pixels * 520.0; }
+/* What a picture needs while it is loaded: as four floats a texel, beside its file of at most four
+ * bytes a texel. */
+static double bytes_of_picture(double decoded) { return 1.25 * decoded; }
+/* What reads pictures: OpenImageIO with the libraries behind it, as measured. */
+static const double bytes_of_reader = 117.0 * 1024.0 * 1024.0;
 
 typedef struct findings {
     world_stats world;
     double textures; /* bytes */
+    double picture;  /* bytes, of the largest while it is loaded: before there is a world */
     double largest;  /* bytes, of the grid or view that needs most */
     double lumens;   /* of all lights that are not far away */
     int name_width;  /* of lights, groups, grids and views */
@@ -23,7 +29,9 @@ typedef struct findings {
 /* With what the program takes in any case. */
 static double bytes_to_run(const findings *f)
 {
-    return (double)f->world.bytes + f->textures + f->largest + 8.0 * mebi;
+    double reader = f->textures > 0.0 ? bytes_of_reader : 0.0;
+    return f->textures + fmax((double)f->world.bytes + f->largest, f->picture) + reader +
+           8.0 * mebi;
 }
 
 /* "up", "along +x", ...: where the sensors of a plane look. */
@@ -320,6 +328,7 @@ static int check_command(const command_context *c, lux_error *err)
         return exit_code_of(err, true);
     findings f = { .world      = world_statistics(s->world),
                    .textures   = (double)s->texture_bytes,
+                   .picture    = bytes_of_picture((double)s->picture_bytes),
                    .name_width = name_width(s) };
     for (int g = 0; g < s->group_count; g++)
         f.lumens += sums[g].lumens;

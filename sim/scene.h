@@ -113,13 +113,14 @@ typedef struct scene {
     bool solids;                  /* some of those are solids that refract, */
     bool narrow;                  /* some are not matt: rays find lamps by way of them */
 
-    bool reflects;     /* light goes on from some surface, to either side */
-    bool glows;        /* some surface emits light */
-    double glow_watts; /* W, not dimmed, of glowing surfaces that are no emitters: they have
-                          textures of emission or alpha, and only rays find them */
-    uint64_t texture_bytes;
-    bool mirrors_hide; /* light of small lamps that comes by way of mirrors is not found */
-    int small_patches; /* lamps that light a patch too small for samples to find reliably */
+    bool reflects;          /* light goes on from some surface, to either side */
+    bool glows;             /* some surface emits light */
+    double glow_watts;      /* W, not dimmed, of glowing surfaces that are no emitters: they have
+                               textures of emission or alpha, and only rays find them */
+    uint64_t texture_bytes; /* of all textures, kept */
+    uint64_t picture_bytes; /* of the largest picture decoded, while its texture is made */
+    bool mirrors_hide;      /* light of small lamps that comes by way of mirrors is not found */
+    int small_patches;      /* lamps that light a patch too small for samples to find reliably */
 } scene;
 
 /* The light that samples may miss without an interval telling, in words; NULL if there is none. */

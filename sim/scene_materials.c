@@ -93,7 +93,7 @@ static int by_address(const void *one, const void *other)
     return a < b ? -1 : a > b;
 }
 
-bool scene_textures(scene_build *b, uint64_t *bytes)
+bool scene_textures(scene_build *b, uint64_t *bytes, uint64_t *largest)
 {
     const material *const *all = b->materials.items;
     arena scratch              = { 0 };
@@ -112,8 +112,11 @@ bool scene_textures(scene_build *b, uint64_t *bytes)
     if (found)
         qsort(found, count, sizeof *found, by_address);
     for (size_t i = 0; i < count; i++)
-        if (i == 0 || found[i] != found[i - 1])
+        if (i == 0 || found[i] != found[i - 1]) {
+            uint64_t picture = texture_picture_bytes(found[i]);
+            *largest         = picture > *largest ? picture : *largest;
             *bytes += texture_bytes(found[i]);
+        }
     arena_clear(&scratch);
     return found != NULL;
 }

@@ -95,6 +95,9 @@ vfloat vbrdf_pdf(const brdf *b, const vbrdf_place *p, vfloat cos_in);
 /* Integrals of a table whose axes and values are there; scales it and tells of it. */
 bool brdf_integrate(brdf *b, arena *a, const char *name, notices *n, lux_error *err);
 
+/* Sets figures.reciprocity_mean and _worst. */
+void brdf_measure_reciprocity(brdf *b);
+
 /* Weights of the cells of one node, thetas * phis, and its albedo: in brdf_half.c for half tables.
  */
 void brdf_half_node(const brdf *b, int node, double *cells, double rgb[3]);

@@ -13,17 +13,7 @@ static inline vrgb look_color(const material *m, const vshading *s)
 /* All of it. */
 static inline vlook look_of(const material *m, const vshading *s)
 {
-    const material_look *l = &m->look;
-    if (m->textures)
-        return s->look;
-    return (vlook){ .color           = vspread(l->color),
-                    .emission        = vspread(l->emission),
-                    .specular        = vspread(l->specular),
-                    .openness        = vsplat(l->openness),
-                    .metallic        = vsplat(l->metallic),
-                    .roughness       = vsplat(l->roughness),
-                    .transmission    = vsplat(l->transmission),
-                    .specular_weight = vsplat(l->specular_weight) };
+    return m->textures ? s->look : look_plain(m);
 }
 
 /* Whether each channel is in [0, 1]; whether extra's fields are in their ranges: else false with

@@ -25,6 +25,10 @@ bool extra_valid(const char *material_name, const material_extra *extra, lux_err
 void material_begin(material *m, const material_type *type, vec3 color,
                     const material_extra *extra);
 
+/* A new material whose look is its reflectance and textures alone; NULL as a maker's. */
+material *material_reflecting(arena *a, const material_type *type, vec3 reflectance,
+                              const material_extra *extra, lux_error *err);
+
 /* The mean of a texture of the base colour; white where there is none. */
 vec3 textures_mean_color(const material_textures *t);
 

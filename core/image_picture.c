@@ -162,13 +162,14 @@ static int chunk_kind(const uint8_t *chunk)
     return -1;
 }
 
-/* Copies a PNG without the chunks that are not needed; the size of the copy, or 0 if the file is
- * cut or damaged. Each chunk is its length, four letters, as many bytes as its length says, a CRC.
+/* Copies a PNG, be it onto itself, without the chunks that are not needed; its size then, or 0 if
+ * the file is cut or damaged. Each chunk is its length, four letters, as many bytes as its length
+ * says, a CRC.
  */
 static size_t png_copy(const uint8_t *from, size_t size, uint8_t *to)
 {
     size_t at = sizeof PNG_MAGIC, copied = sizeof PNG_MAGIC;
-    memcpy(to, from, at);
+    memmove(to, from, at);
     while (size - at >= CHUNK_FRAME) {
         size_t length = big_endian(from + at);
         if (length > size - at - CHUNK_FRAME)
@@ -177,7 +178,7 @@ static size_t png_copy(const uint8_t *from, size_t size, uint8_t *to)
             return 0;
         int kind = chunk_kind(from + at);
         if (kind >= 0) {
-            memcpy(to + copied, from + at, length + CHUNK_FRAME);
+            memmove(to + copied, from + at, length + CHUNK_FRAME);
             copied += length + CHUNK_FRAME;
         }
         if (kind == CHUNK_LAST)
@@ -187,13 +188,11 @@ static size_t png_copy(const uint8_t *from, size_t size, uint8_t *to)
     return 0;
 }
 
-static bool prepare_png(oiio_source *from, const char *path, arena *scratch, lux_error *err)
+/* `to` has room for all of it. */
+static bool prepare_png(oiio_source *from, const char *path, uint8_t *to, lux_error *err)
 {
-    uint8_t *copy = arena_array(scratch, uint8_t, from->size, err);
-    if (!copy)
-        return false;
-    from->size  = png_copy(from->bytes, from->size, copy);
-    from->bytes = copy;
+    from->size  = png_copy(from->bytes, from->size, to);
+    from->bytes = to;
     return from->size || failed(err, ERR_FORMAT, "%s: PNG that is cut off or damaged", path);
 }
 
@@ -201,15 +200,19 @@ static bool prepare_png(oiio_source *from, const char *path, arena *scratch, lux
 
 static bool prepare(oiio_source *from, const char *path, arena *scratch, lux_error *err)
 {
-    bool file = !from->bytes;
-    if (file)
-        from->bytes = file_read(scratch, path, MOST_BYTES, &from->size, err);
+    void *own = NULL;
+    if (!from->bytes)
+        from->bytes = own = file_read(scratch, path, MOST_BYTES, &from->size, err);
     if (!from->bytes)
         return false;
-    if (is_png(from->bytes, from->size))
-        return prepare_png(from, path, scratch, err);
-    if (file)
+    if (is_png(from->bytes, from->size)) {
+        uint8_t *to = own ? own : arena_array(scratch, uint8_t, from->size, err);
+        return to && prepare_png(from, path, to, err);
+    }
+    if (own) {
+        arena_clear(scratch);
         from->bytes = NULL; /* not all formats can be read from memory */
+    }
     return true;
 }
 

@@ -73,8 +73,7 @@ typedef void leaf_fn(void *context, const uint32_t *items, uint32_t count, vmask
 
 INLINE void walk(const bsp *b, const vslabs *s, const vfloat *limit, leaf_fn *leaf, void *context)
 {
-    later stack[BSP_STACK];
-    later *top           = stack;
+    later stack[BSP_STACK], *top = stack;
     const char *nodes    = (const char *)b->nodes;
     const bsp_node *node = b->nodes;
     vfloat near = s->near, far = s->far;

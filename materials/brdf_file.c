@@ -29,7 +29,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MOST_BANDS = 64, MOST_AXIS = 20000, LONGEST_WORD = 32 };
+enum { MOST_BANDS = 64, LONGEST_WORD = 32 };
 
 /* Where the reader is: a word of the file. */
 typedef struct reader {
@@ -180,9 +180,10 @@ static bool read_axis(reader *r, header *h, int axis)
     double value = 0.0, *at = NULL;
     while (next_word(r, false) && take_number(r, &value)) {
         int count = h->counts[axis];
-        if (count == MOST_AXIS)
-            return failed(r->err, ERR_FORMAT, "%s:%d: found more than %d places on an axis",
-                          r->path, r->line, MOST_AXIS);
+        if (count == BRDF_MOST_AXIS)
+            return failed(r->err, ERR_FORMAT,
+                          "%s:%d: found more than %d places on an axis, finer than any data",
+                          r->path, r->line, BRDF_MOST_AXIS);
         if (count == room) {
             room         = room ? 2 * room : 64;
             double *more = arena_array(r->scratch, double, (size_t)room, r->err);

@@ -16,7 +16,8 @@
 
 #include <string.h>
 
-enum { HEADER = 12 };
+/* Twice as fine as the database is, along each angle: what takes longer to look at is no data. */
+enum { HEADER = 12, MOST_CELLS = 360 };
 
 static bool read_header(const char *path, const char *bytes, size_t size, int counts[3],
                         lux_error *err)
@@ -29,9 +30,9 @@ static bool read_header(const char *path, const char *bytes, size_t size, int co
         uint32_t count = 0;
         for (int k = 3; k >= 0; k--)
             count = count << 8 | (unsigned char)bytes[4 * i + k];
-        if (count < 1 || count > 10000)
-            return failed(err, ERR_FORMAT, "%s: offset %d: found %u, %s, each from 1 to 10000",
-                          path, 4 * i, count, wanted);
+        if (count < 1 || count > MOST_CELLS)
+            return failed(err, ERR_FORMAT, "%s: offset %d: found %u, %s, each from 1 to %d", path,
+                          4 * i, count, wanted, MOST_CELLS);
         counts[i] = (int)count;
         places *= counts[i];
     }

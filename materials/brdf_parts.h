@@ -16,7 +16,7 @@
 #include "core/table.h"
 #include "materials/brdf.h"
 
-enum { BRDF_MOST_PLACES = 4 << 20 };
+enum { BRDF_MOST_PLACES = 4 << 20, BRDF_MOST_AXIS = 2000 };
 
 /* Directions of wo for which the table is integrated, and from whose rows wi is drawn: albedo and
  * densities are linear between them. */
@@ -94,6 +94,9 @@ vfloat vbrdf_pdf(const brdf *b, const vbrdf_place *p, vfloat cos_in);
 
 /* Integrals of a table whose axes and values are there; scales it and tells of it. */
 bool brdf_integrate(brdf *b, arena *a, const char *name, notices *n, lux_error *err);
+
+/* Sets figures.reciprocity_mean and _worst. */
+void brdf_measure_reciprocity(brdf *b);
 
 /* Weights of the cells of one node, thetas * phis, and its albedo: in brdf_half.c for half tables.
  */

@@ -9,8 +9,9 @@
  *             / ColumnAngleBasis, RowAngleBasis (Klems), AngleBasis (trees)
  *             / ScatteringDataType, ScatteringData
  *
- * Elements are known by name, wherever in their parent they stand. A document type, and with it any
- * entity of a file's own, is refused.
+ * Elements are known by name, wherever in their parent they stand; but Wavelength stands before the
+ * blocks that it is said of, as the schema has it. A document type, and with it any entity of a
+ * file's own, is refused.
  */
 #include "materials/bsdf_parts.h"
 

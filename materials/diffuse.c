@@ -43,15 +43,8 @@ static const material_type diffuse_type = { .name    = "diffuse",
 
 const material *material_diffuse(arena *a, const diffuse_desc *d, lux_error *err)
 {
-    static const char name[] = "diffuse material";
-    if (!share_valid(name, "reflectance", d->reflectance, err) ||
-        !extra_valid(name, &d->extra, err))
-        return NULL;
-    material *m = arena_new(a, material, err);
-    if (!m)
-        return NULL;
-    material_begin(m, &diffuse_type, d->reflectance, &d->extra);
-    m->reflectance = v3_mul(d->reflectance, textures_mean_color(d->extra.textures));
-    m->matt        = true;
+    material *m = material_reflecting(a, &diffuse_type, d->reflectance, &d->extra, err);
+    if (m)
+        m->matt = true;
     return m;
 }

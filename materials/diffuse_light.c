@@ -8,15 +8,9 @@ enum { STEPS = 1024 };
 
 static vlook mean_look(const material *m)
 {
-    const material_look *l = &m->look;
-    return (vlook){ .color           = vspread(v3_mul(l->color, textures_mean_color(m->textures))),
-                    .emission        = vspread(l->emission),
-                    .specular        = vspread(l->specular),
-                    .openness        = vsplat(l->openness),
-                    .metallic        = vsplat(l->metallic),
-                    .roughness       = vsplat(l->roughness),
-                    .transmission    = vsplat(l->transmission),
-                    .specular_weight = vsplat(l->specular_weight) };
+    vlook look = look_plain(m);
+    look.color = vspread(v3_mul(m->look.color, textures_mean_color(m->textures)));
+    return look;
 }
 
 static vec3 mean(const material *m, vrgb (*share)(const material *, const vshading *, vmask))

@@ -2,6 +2,8 @@
  * are dealt with here, so that no kind of material needs to know of them. */
 #include "materials/material_parts.h"
 
+#include <stdio.h>
+
 static vrgb join(vrgb a, vrgb b) { return vadd(a, b); } /* of disjoint lanes, zero elsewhere */
 
 /* ---- holes ----------------------------------------------------------------------------------- */
@@ -171,4 +173,19 @@ void material_begin(material *m, const material_type *type, vec3 color, const ma
                                    .roughness       = 1.0f,
                                    .transmission    = 1.0f,
                                    .specular_weight = 1.0f };
+}
+
+material *material_reflecting(arena *a, const material_type *type, vec3 reflectance,
+                              const material_extra *extra, lux_error *err)
+{
+    char name[64];
+    snprintf(name, sizeof name, "%s material", type->name);
+    if (!share_valid(name, "reflectance", reflectance, err) || !extra_valid(name, extra, err))
+        return NULL;
+    material *m = arena_new(a, material, err);
+    if (!m)
+        return NULL;
+    material_begin(m, type, reflectance, extra);
+    m->reflectance = v3_mul(reflectance, textures_mean_color(extra->textures));
+    return m;
 }

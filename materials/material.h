@@ -151,6 +151,20 @@ typedef struct gloss_desc {
 } gloss_desc;
 const material *material_gloss(arena *a, const gloss_desc *d, lux_error *err);
 
+/* The look of a material where no texture changes it. */
+static inline vlook look_plain(const material *m)
+{
+    const material_look *l = &m->look;
+    return (vlook){ .color           = vspread(l->color),
+                    .emission        = vspread(l->emission),
+                    .specular        = vspread(l->specular),
+                    .openness        = vsplat(l->openness),
+                    .metallic        = vsplat(l->metallic),
+                    .roughness       = vsplat(l->roughness),
+                    .transmission    = vsplat(l->transmission),
+                    .specular_weight = vsplat(l->specular_weight) };
+}
+
 /* ---- packets whose lanes are of different materials: all[index], one material at a time --------
  */
 

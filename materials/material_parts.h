@@ -13,17 +13,7 @@ static inline vrgb look_color(const material *m, const vshading *s)
 /* All of it. */
 static inline vlook look_of(const material *m, const vshading *s)
 {
-    const material_look *l = &m->look;
-    if (m->textures)
-        return s->look;
-    return (vlook){ .color           = vspread(l->color),
-                    .emission        = vspread(l->emission),
-                    .specular        = vspread(l->specular),
-                    .openness        = vsplat(l->openness),
-                    .metallic        = vsplat(l->metallic),
-                    .roughness       = vsplat(l->roughness),
-                    .transmission    = vsplat(l->transmission),
-                    .specular_weight = vsplat(l->specular_weight) };
+    return m->textures ? s->look : look_plain(m);
 }
 
 /* Whether each channel is in [0, 1]; whether extra's fields are in their ranges: else false with
@@ -34,6 +24,10 @@ bool extra_valid(const char *material_name, const material_extra *extra, lux_err
 /* Sets type, look (color, extra's emission and openness, and else 1) and textures. */
 void material_begin(material *m, const material_type *type, vec3 color,
                     const material_extra *extra);
+
+/* A new material whose look is its reflectance and textures alone; NULL as a maker's. */
+material *material_reflecting(arena *a, const material_type *type, vec3 reflectance,
+                              const material_extra *extra, lux_error *err);
 
 /* The mean of a texture of the base colour; white where there is none. */
 vec3 textures_mean_color(const material_textures *t);

@@ -24,14 +24,5 @@ static const material_type mirror_type = { .name    = "mirror",
 
 const material *material_mirror(arena *a, const mirror_desc *d, lux_error *err)
 {
-    static const char name[] = "mirror material";
-    if (!share_valid(name, "reflectance", d->reflectance, err) ||
-        !extra_valid(name, &d->extra, err))
-        return NULL;
-    material *m = arena_new(a, material, err);
-    if (!m)
-        return NULL;
-    material_begin(m, &mirror_type, d->reflectance, &d->extra);
-    m->reflectance = v3_mul(d->reflectance, textures_mean_color(d->extra.textures));
-    return m;
+    return material_reflecting(a, &mirror_type, d->reflectance, &d->extra, err);
 }

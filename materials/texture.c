@@ -155,71 +155,74 @@ static cover cover_of(int n, int x)
     return (cover){ 2 * x, 3, { (m - x) / n, m / n, (x + 1.0) / n } };
 }
 
-/* A level while the pyramid is made: the picture as it came, or means. */
+/* A level without its frame, or the picture as it came. */
 typedef struct picture {
     int width, height;
-    const float *given; /* or NULL */
-    double *means;
+    size_t stride; /* floats from a line to the next */
+    const float *texels;
 } picture;
 
-static void add_line(const picture *p, int line, double weight, double *sum)
+static float *first_texel(const texture *t, const level *l)
 {
-    size_t length = (size_t)p->width * 4, first = (size_t)line * length;
-    if (p->given)
-        for (size_t i = 0; i < length; i++)
-            sum[i] += weight * (double)p->given[first + i];
-    else
-        for (size_t i = 0; i < length; i++)
-            sum[i] += weight * p->means[first + i];
+    return t->texels + 4 * ((size_t)l->first + (size_t)l->stride + 1);
 }
 
-static void clear_line(const picture *p, double *sum)
+static picture picture_of(const texture *t, const level *l)
+{
+    return (picture){ (int)l->width, (int)l->height, 4 * (size_t)l->stride, first_texel(t, l) };
+}
+
+/* Sums of several lines of p by their weights. */
+static void add_lines(const picture *p, const cover *lines, double *sum)
 {
     memset(sum, 0, (size_t)p->width * 4 * sizeof *sum);
+    for (int k = 0; k < lines->count; k++) {
+        const float *from = p->texels + (size_t)(lines->first + k) * p->stride;
+        for (size_t i = 0; i < (size_t)p->width * 4; i++)
+            sum[i] += lines->weight[k] * (double)from[i];
+    }
 }
 
-/* The next level, into means; sum holds one line of p. */
-static void shrink(const picture *p, double *sum, double *means)
+/* The next level of p at `to`, whose lines are stride floats apart; sum holds one line of p. */
+static void shrink(const picture *p, double *sum, float *to, size_t stride)
 {
     int width = half_of(p->width), height = half_of(p->height);
     for (int y = 0; y < height; y++) {
         cover lines = cover_of(p->height, y);
-        clear_line(p, sum);
-        for (int k = 0; k < lines.count; k++)
-            add_line(p, lines.first + k, lines.weight[k], sum);
+        add_lines(p, &lines, sum);
         for (int x = 0; x < width; x++) {
             cover columns      = cover_of(p->width, x);
             const double *from = sum + 4 * (size_t)columns.first;
-            for (int c = 0; c < 4; c++, means++) {
-                *means = 0.0;
+            for (int c = 0; c < 4; c++) {
+                double mean = 0.0;
                 for (int k = 0; k < columns.count; k++)
-                    *means += columns.weight[k] * from[4 * k + c];
+                    mean += columns.weight[k] * from[4 * k + c];
+                to[(size_t)y * stride + 4 * (size_t)x + (size_t)c] = (float)mean + 0.0f;
             }
         }
     }
 }
 
-/* Which of n texels stands at i, -1 ... n: those at the ends are the frame. */
-static int framed(texture_wrap wrap, int i, int n)
+/* Of n texels the one that stands before the first, or after the last, in the frame. */
+static size_t framed(texture_wrap wrap, bool after, int n)
 {
-    bool repeats = wrap == WRAP_REPEAT;
-    if (i < 0)
-        return repeats ? n - 1 : 0;
-    return i < n ? i : repeats ? 0 : n - 1;
+    return after == (wrap == WRAP_REPEAT) ? 0 : (size_t)n - 1;
 }
 
-/* With its frame. No texel is -0: so a blend of them is not either, whichever way it is made. */
-static void store(const texture *t, const picture *p, double *sum, float *to)
+/* Puts a frame about a level. */
+static void add_frame(const texture *t, const level *l)
 {
-    for (int y = -1; y <= p->height; y++) {
-        clear_line(p, sum);
-        add_line(p, framed(t->wrap_v, y, p->height), 1.0, sum);
-        for (int x = -1; x <= p->width; x++) {
-            const double *from = sum + 4 * (size_t)framed(t->wrap_u, x, p->width);
-            for (int c = 0; c < 4; c++)
-                *to++ = (float)from[c] + 0.0f;
-        }
+    const size_t texel = 4 * sizeof *t->texels, stride = 4 * (size_t)l->stride;
+    int width = (int)l->width, height = (int)l->height;
+    float *first = first_texel(t, l);
+    for (int y = 0; y < height; y++) {
+        float *line = first + (size_t)y * stride;
+        memcpy(line - 4, line + 4 * framed(t->wrap_u, false, width), texel);
+        memcpy(line + 4 * width, line + 4 * framed(t->wrap_u, true, width), texel);
     }
+    float *top = first - 4 - stride, *low = first - 4 + (size_t)height * stride;
+    memcpy(top, first - 4 + framed(t->wrap_v, false, height) * stride, stride * sizeof *top);
+    memcpy(low, first - 4 + framed(t->wrap_v, true, height) * stride, stride * sizeof *low);
 }
 
 /* Sets levels, last and size; returns how many texels there are, frames and all: fewer than 2^31
@@ -242,25 +245,31 @@ static size_t lay_out(texture *t, int width, int height)
     return count;
 }
 
+/* No texel is -0: so a blend of them is not either, whichever way it is made. */
+static void copy_picture(const texture *t, const texture_desc *d)
+{
+    size_t length = (size_t)d->width * 4, stride = 4 * (size_t)t->levels[0].stride;
+    float *to = first_texel(t, &t->levels[0]);
+    for (size_t y = 0; y < (size_t)d->height; y++)
+        for (size_t i = 0; i < length; i++)
+            to[y * stride + i] = d->rgba[y * length + i] + 0.0f;
+}
+
+/* Each level is made of the one below as it is stored: beside them there is a line of sums. */
 static bool fill(texture *t, const texture_desc *d, arena *scratch, lux_error *err)
 {
-    int width = half_of(d->width), height = half_of(d->height);
-    size_t next   = (size_t)width * (size_t)height * 4;
-    size_t after  = (size_t)half_of(width) * (size_t)half_of(height) * 4;
-    double *sum   = arena_array(scratch, double, (size_t)d->width * 4, err);
-    double *one   = sum ? arena_array(scratch, double, next, err) : NULL;
-    double *other = one ? arena_array(scratch, double, after, err) : NULL;
-    if (!other)
+    double *sum = arena_array(scratch, double, (size_t)d->width * 4, err);
+    if (!sum)
         return false;
-    picture p = { d->width, d->height, d->rgba, NULL };
-    for (int i = 0; i <= (int)t->last; i++) {
-        store(t, &p, sum, t->texels + 4 * (size_t)t->levels[i].first);
-        double *smaller = p.means == one ? other : one;
-        shrink(&p, sum, smaller);
-        p = (picture){ half_of(p.width), half_of(p.height), NULL, smaller };
+    copy_picture(t, d);
+    add_frame(t, &t->levels[0]);
+    for (int i = 1; i <= (int)t->last; i++) {
+        const level *l = &t->levels[i];
+        picture below  = picture_of(t, l - 1);
+        shrink(&below, sum, first_texel(t, l), 4 * (size_t)l->stride);
+        add_frame(t, l);
     }
-    for (int c = 0; c < 4; c++)
-        t->mean[c] = (float)p.means[c] + 0.0f;
+    memcpy(t->mean, first_texel(t, &t->levels[(int)t->last]), sizeof t->mean);
     return true;
 }
 
@@ -311,6 +320,22 @@ void texture_mean(const texture *t, float rgba[4])
 {
     for (int c = 0; c < 4; c++)
         rgba[c] = t->mean[c];
+}
+
+double texture_share(const texture *t, float alpha)
+{
+    picture p    = picture_of(t, &t->levels[0]);
+    size_t count = 0;
+    for (size_t y = 0; y < (size_t)p.height; y++)
+        for (size_t x = 0; x < (size_t)p.width; x++)
+            count += p.texels[y * p.stride + 4 * x + 3] >= alpha;
+    return (double)count / ((double)p.width * p.height);
+}
+
+uint64_t texture_picture_bytes(const texture *t)
+{
+    const level *l = &t->levels[0];
+    return (uint64_t)l->width * (uint64_t)l->height * 4 * sizeof *t->texels;
 }
 
 uint64_t texture_bytes(const texture *t) { return t->bytes; }

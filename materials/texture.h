@@ -40,7 +40,10 @@ vtexel vtexture_lookup(const texture *t, vfloat u, vfloat v, vfloat width, vmask
 
 /* The mean over the picture: that of its last level too. */
 void texture_mean(const texture *t, float rgba[4]);
-/* All that it keeps in memory. */
+/* What share of the full picture's texels has at least that alpha, [0, 1]. */
+double texture_share(const texture *t, float alpha);
+/* All that it keeps in memory; and texture_desc.rgba, which is needed besides while it is made. */
 uint64_t texture_bytes(const texture *t);
+uint64_t texture_picture_bytes(const texture *t);
 
 #endif

@@ -11,10 +11,16 @@ static const double mebi = 1024.0 * 1024.0;
 /* What a grid or view of that many sensors or pixels keeps while it runs, bytes. */
 static double bytes_of_sensors(double sensors) { return sensors * 350.0; }
 static double bytes_of_pixels(double pixels) { return pixels * 520.0; }
+/* What a picture needs while it is loaded: as four floats a texel, beside its file of at most four
+ * bytes a texel. */
+static double bytes_of_picture(double decoded) { return 1.25 * decoded; }
+/* What reads pictures: OpenImageIO with the libraries behind it, as measured. */
+static const double bytes_of_reader = 117.0 * 1024.0 * 1024.0;
 
 typedef struct findings {
     world_stats world;
     double textures; /* bytes */
+    double picture;  /* bytes, of the largest while it is loaded: before there is a world */
     double largest;  /* bytes, of the grid or view that needs most */
     double lumens;   /* of all lights that are not far away */
     int name_width;  /* of lights, groups, grids and views */
@@ -23,7 +29,9 @@ typedef struct findings {
 /* With what the program takes in any case. */
 static double bytes_to_run(const findings *f)
 {
-    return (double)f->world.bytes + f->textures + f->largest + 8.0 * mebi;
+    double reader = f->textures > 0.0 ? bytes_of_reader : 0.0;
+    return f->textures + fmax((double)f->world.bytes + f->largest, f->picture) + reader +
+           8.0 * mebi;
 }
 
 /* "up", "along +x", ...: where the sensors of a plane look. */
@@ -105,19 +113,29 @@ static void print_share(vec3 c, int width)
     printf("%*s", width, text);
 }
 
+/* What passes the surface or its holes. */
+static vec3 let_through(const scene_material *m)
+{
+    vec3 t       = v3_scale(m->transmittance, (float)m->there);
+    double holes = 1.0 - m->there;
+    return (vec3){ (float)((double)t.x + holes), (float)((double)t.y + holes),
+                   (float)((double)t.z + holes) };
+}
+
 static bool is_dark(vec3 c) { return c.x == 0.0f && c.y == 0.0f && c.z == 0.0f; }
 
 /* What is not plain about a material. */
 static void print_notes(const scene_material *m)
 {
-    if (!is_dark(m->transmittance)) {
+    vec3 through = let_through(m);
+    if (!is_dark(through)) {
         printf("   lets through ");
-        print_share(m->transmittance, 0);
+        print_share(through, 0);
     }
     if (m->file) {
         fputs("   of ", stdout);
         print_words(stdout, m->file, 0, INT_MAX);
-        printf(", reciprocal to %.1f %%", 100.0 * m->reciprocity);
+        printf(", reciprocity error %.1f %%", 100.0 * m->reciprocity);
         if (m->scaled_by < 1.0)
             printf(", scaled by %.4g", m->scaled_by);
     }
@@ -148,7 +166,7 @@ static void print_materials(const scene *s)
         fputs("  ", stdout);
         print_words(stdout, m->name[0] ? m->name : "(unnamed)", width, INT_MAX);
         printf("   %-10s", m->kind);
-        print_share(m->reflectance, 17);
+        print_share(v3_scale(m->reflectance, (float)m->there), 17);
         print_notes(m);
     }
 }
@@ -310,6 +328,7 @@ static int check_command(const command_context *c, lux_error *err)
         return exit_code_of(err, true);
     findings f = { .world      = world_statistics(s->world),
                    .textures   = (double)s->texture_bytes,
+                   .picture    = bytes_of_picture((double)s->picture_bytes),
                    .name_width = name_width(s) };
     for (int g = 0; g < s->group_count; g++)
         f.lumens += sums[g].lumens;

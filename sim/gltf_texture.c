@@ -20,8 +20,8 @@
 
 enum { NEAREST = 9728, REPEAT = 10497, CLAMP = 33071, MIRROR = 33648 };
 
-/* Of all pictures: 4 GB of floats, and a third more for what is made of them. */
-static const uint64_t texels_most = (uint64_t)1 << 28;
+/* Of all pictures: 2 GB of floats, and a third more for what is made of them. */
+static const uint64_t texels_most = (uint64_t)1 << 27;
 
 /* A texture on the shelf. */
 typedef struct shelved {

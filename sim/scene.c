@@ -227,7 +227,7 @@ const scene *scene_new(arena *a, const study *from, const scene_options *o, noti
         return NULL;
     s->world = build_world(&b);
     if (!s->world || !build_lamps(&b) || !build_cameras(&b) ||
-        !scene_textures(&b, &s->texture_bytes))
+        !scene_textures(&b, &s->texture_bytes, &s->picture_bytes))
         return NULL;
 
     s->study          = from;

@@ -14,7 +14,8 @@
 #include "sim/gltf.h"
 #include "sim/study.h"
 
-/* Colours are means over textures, and of what is there where there are holes. */
+/* Colours are means over textures, and of what is there where there are holes: of all light that
+ * meets it a surface reflects reflectance * there. */
 typedef struct scene_material {
     const char *name;     /* "room: walls" for those of the room */
     const char *kind;     /* material_type.name */
@@ -24,6 +25,7 @@ typedef struct scene_material {
     vec3 reflectance;     /* of diffuse light, on the front side */
     vec3 transmittance;   /* of diffuse light, straight and scattered */
     vec3 emission;        /* cd/m^2 */
+    double there;         /* [0, 1]: the share of it that is no hole */
     bool textured, bumpy; /* it has textures; a normal map */
     bool holes, box;      /* it has holes; of closed boxes of glass, each taken as one pane */
     bool overridden;      /* by the study's materials */
@@ -115,14 +117,15 @@ typedef struct scene {
     bool solids;                  /* some of those are solids that refract, */
     bool narrow;                  /* some are not matt: rays find lamps by way of them */
 
-    bool reflects;     /* light goes on from some surface, to either side */
-    bool glows;        /* some surface emits light */
-    double glow_watts; /* W, not dimmed, of glowing surfaces that are no emitters: they have
-                          textures of emission or alpha, and only rays find them */
-    uint64_t texture_bytes;
-    bool mirrors;      /* some material in use reflects as a mirror does */
-    bool mirrors_hide; /* light of small lights that comes by way of those is not found */
-    int small_patches; /* lamps that light a patch too small for samples to find reliably */
+    bool reflects;          /* light goes on from some surface, to either side */
+    bool glows;             /* some surface emits light */
+    double glow_watts;      /* W, not dimmed, of glowing surfaces that are no emitters: they have
+                               textures of emission or alpha, and only rays find them */
+    uint64_t texture_bytes; /* of all textures, kept */
+    uint64_t picture_bytes; /* of the largest picture decoded, while its texture is made */
+    bool mirrors;           /* some material in use reflects as a mirror does */
+    bool mirrors_hide;      /* light of small lights that comes by way of those is not found */
+    int small_patches;      /* lamps that light a patch too small for samples to find reliably */
 } scene;
 
 /* The light that samples may miss without an interval telling, in words; NULL if there is none. */

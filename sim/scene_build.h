@@ -106,11 +106,12 @@ bool gltf_material_is_pane(const gltf_material *m);
 material_extra material_extra_of(const gltf_material *m);
 
 /* By what a share (times the mean of its texture) is to be multiplied so that no surface gives back
- * more light than any real one does; the user is told. */
+ * more light than any real one does; the user is told, unless its holes make up for it. */
 vec3 material_bounded(scene_build *b, const material_source *s, vec3 share, vec3 mean);
 
-/* What the textures of all materials keep, bytes: each counted once. */
-bool scene_textures(scene_build *b, uint64_t *bytes);
+/* What the textures of all materials keep, bytes, each counted once; and what the largest needs
+ * besides while it is made. */
+bool scene_textures(scene_build *b, uint64_t *bytes, uint64_t *largest);
 
 /* Where the textures of a material stand: in *out, of `TEXTURE_SLOTS`. */
 enum { TEXTURE_SLOTS = 7 };

@@ -14,17 +14,6 @@ static const double met_often  = 8.0;    /* times, in the first samples of a sen
 
 enum { SIDE = 8, DRAWS = SIDE * SIDE };
 
-static vlook plain_look(const material_look *l)
-{
-    return (vlook){ .color           = vspread(l->color),
-                    .specular        = vspread(l->specular),
-                    .openness        = vsplat(l->openness),
-                    .metallic        = vsplat(l->metallic),
-                    .roughness       = vsplat(l->roughness),
-                    .transmission    = vsplat(l->transmission),
-                    .specular_weight = vsplat(l->specular_weight) };
-}
-
 /* The share of light from 45 degrees that comes back in a narrow lobe, or in a single direction. */
 static float mirrored_share(const material *const *all, int m)
 {
@@ -34,7 +23,7 @@ static float mirrored_share(const material *const *all, int m)
                        .flat     = up,
                        .front    = ALL_LANES,
                        .distance = vsplat(1.0f),
-                       .look     = plain_look(&all[m]->look) };
+                       .look     = look_plain(all[m]) };
     float sum      = 0.0f;
     for (int k = 0; k < DRAWS; k += LANES) {
         vint number = vlane_index() + k;

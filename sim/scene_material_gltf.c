@@ -32,6 +32,7 @@
 #include "sim/scene_build.h"
 
 static const float smooth          = 0.03f;   /* a roughness that nobody sees in a pane */
+static const float nearly_smooth   = 0.1f;    /* whose lobe of transmission is narrow yet */
 static const float rough           = 0.999f;  /* 1 as a slider gives it */
 static const float least_ior       = 1.0001f; /* that makers of glass take */
 static const float most_absorption = 1e9f;    /* 1/m: black */
@@ -175,7 +176,7 @@ static const material *make_gloss(scene_build *b, const material_source *s)
                                .specular       = m->specular,
                                .specular_color = m->specular_color,
                                .extra          = material_extra_of(m) };
-    tell(b, s, clearness(m) > 0.0f && m->roughness < smooth,
+    tell(b, s, clearness(m) > 0.0f && m->roughness < nearly_smooth,
          "smooth and clear in part: the light of lamps that passes it is hard to find, and "
          "results are slow to settle");
     return material_gloss(b->a, &d, b->err);

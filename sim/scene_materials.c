@@ -13,6 +13,23 @@
  * has no finite value. The whitest surfaces there are, of sintered PTFE, reflect 99 %. */
 static const float most_reflectance = 0.995f;
 
+/* What share of a surface is no hole, as materials_look() decides it place by place. */
+static double share_there(float openness, const material_textures *t)
+{
+    float alpha = 1.0f - openness;
+    if (!t || t->alpha == ALPHA_OPAQUE)
+        return (double)alpha;
+    if (t->alpha == ALPHA_BLEND) {
+        float mean[4] = { 1, 1, 1, 1 };
+        if (t->base.texture)
+            texture_mean(t->base.texture, mean);
+        return fmin((double)alpha * (double)mean[3], 1.0);
+    }
+    if (!t->base.texture || t->cutoff <= 0.0f || alpha <= 0.0f)
+        return alpha >= t->cutoff ? 1.0 : 0.0;
+    return texture_share(t->base.texture, t->cutoff / alpha);
+}
+
 static float bounded(float share, float mean)
 {
     return share * mean > most_reflectance ? most_reflectance / mean : share;
@@ -20,9 +37,12 @@ static float bounded(float share, float mean)
 
 vec3 material_bounded(scene_build *b, const material_source *s, vec3 share, vec3 mean)
 {
-    vec3 to   = { bounded(share.x, mean.x), bounded(share.y, mean.y), bounded(share.z, mean.z) };
-    bool less = to.x < share.x || to.y < share.y || to.z < share.z;
-    if (s->used && less && b->bounded_count++ == 0)
+    vec3 to    = { bounded(share.x, mean.x), bounded(share.y, mean.y), bounded(share.z, mean.z) };
+    float most = fmaxf(fmaxf(share.x * mean.x, share.y * mean.y), share.z * mean.z);
+    material_extra extra = material_extra_of(s->from); /* the study leaves holes as they are */
+    if (s->used && most > most_reflectance &&
+        (double)most * share_there(extra.openness, extra.textures) > (double)most_reflectance &&
+        b->bounded_count++ == 0)
         b->first_bounded = s->from->name;
     return to;
 }
@@ -58,6 +78,7 @@ static void describe(const material *m, scene_material *info)
     info->emission             = mean_emission(m);
     info->textured             = t != NULL;
     info->bumpy                = t && t->normal.texture;
+    info->there                = share_there(m->look.openness, t);
     info->holes                = m->look.openness > 0.0f || (t && t->alpha != ALPHA_OPAQUE);
 }
 
@@ -83,7 +104,7 @@ static int by_address(const void *one, const void *other)
     return a < b ? -1 : a > b;
 }
 
-bool scene_textures(scene_build *b, uint64_t *bytes)
+bool scene_textures(scene_build *b, uint64_t *bytes, uint64_t *largest)
 {
     const material *const *all = b->materials.items;
     arena scratch              = { 0 };
@@ -102,8 +123,11 @@ bool scene_textures(scene_build *b, uint64_t *bytes)
     if (found)
         qsort(found, count, sizeof *found, by_address);
     for (size_t i = 0; i < count; i++)
-        if (i == 0 || found[i] != found[i - 1])
+        if (i == 0 || found[i] != found[i - 1]) {
+            uint64_t picture = texture_picture_bytes(found[i]);
+            *largest         = picture > *largest ? picture : *largest;
             *bytes += texture_bytes(found[i]);
+        }
     arena_clear(&scratch);
     return found != NULL;
 }

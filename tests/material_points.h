@@ -24,19 +24,6 @@ static inline double lane_channel(const vrgb *v, int i, int channel)
     return (double)(channel == 0 ? lane(v->x, i) : channel == 1 ? lane(v->y, i) : lane(v->z, i));
 }
 
-static inline vlook white_look(const material *m)
-{
-    const material_look *l = &m->look;
-    return (vlook){ .color           = vspread(l->color),
-                    .emission        = vspread(l->emission),
-                    .specular        = vspread(l->specular),
-                    .openness        = vsplat(l->openness),
-                    .metallic        = vsplat(l->metallic),
-                    .roughness       = vsplat(l->roughness),
-                    .transmission    = vsplat(l->transmission),
-                    .specular_weight = vsplat(l->specular_weight) };
-}
-
 static inline vshading seen_from(const material *m, dir wo)
 {
     vvec3 n = vspread((vec3){ 0, 0, wo.z < 0.0 ? -1.0f : 1.0f });
@@ -45,7 +32,7 @@ static inline vshading seen_from(const material *m, dir wo)
                        .flat     = n,
                        .front    = n.z > 0.0f,
                        .distance = vsplat(1.0f),
-                       .look     = white_look(m) };
+                       .look     = look_plain(m) };
 }
 
 /* ---- polar coordinates about an axis ---------------------------------------------------------

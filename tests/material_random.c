@@ -139,7 +139,7 @@ static void random_points(const material *m, random_numbers *r, points *p)
                             .flat     = load3(at[FLAT]),
                             .front    = vload_int(front),
                             .distance = vload(distance),
-                            .look     = white_look(m) };
+                            .look     = look_plain(m) };
 }
 
 static void expect_number(const material *m, const char *what, bool active, double value,

@@ -1,10 +1,12 @@
 /* tests/one_lane_texture.c -- a look-up as it is at width 1, whatever the width of the rest. */
 #undef PACKET_WIDTH
-#define PACKET_WIDTH    1
-#define texture_new     one_lane_texture_new /* beside the library's own */
-#define texture_mean    one_lane_texture_mean
-#define texture_bytes   one_lane_texture_bytes
-#define vtexture_lookup one_lane_vtexture_lookup
+#define PACKET_WIDTH          1
+#define texture_new           one_lane_texture_new /* beside the library's own */
+#define texture_mean          one_lane_texture_mean
+#define texture_share         one_lane_texture_share
+#define texture_bytes         one_lane_texture_bytes
+#define texture_picture_bytes one_lane_texture_picture_bytes
+#define vtexture_lookup       one_lane_vtexture_lookup
 #include "tests/one_lane_texture.h"
 #include "materials/texture.c"
 

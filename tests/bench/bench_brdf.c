@@ -13,6 +13,7 @@
  */
 #include "materials/brdf_parts.h"
 #include "tests/bench/plain_brdf.h"
+#include "tests/other_times.h"
 #include "tests/shapes.h"
 
 #include <stdio.h>
@@ -240,22 +241,6 @@ static void ask_packets(const brdf *b, const pairs p[2], double best[CASES])
     }
 }
 
-static void ask_program(const char *program, double best[CASES])
-{
-    char command[512];
-    snprintf(command, sizeof command, "'%s' --times", program);
-    FILE *f = popen(command, "r");
-    for (int k = 0; k < CASES; k++) {
-        double ns = 0.0;
-        if (!f || fscanf(f, "%lf", &ns) != 1) {
-            fprintf(stderr, "bench_brdf: %s does not answer\n", program);
-            exit(1);
-        }
-        best[k] = fmin(best[k], ns);
-    }
-    pclose(f);
-}
-
 static void print_parts(const double ours[CASES], const double one[CASES])
 {
     static const char *const names[] = { "whole look-up",
@@ -290,7 +275,7 @@ static void table(const brdf *b, const plain_table *t, const pairs p[2], const c
     for (int k = 0; k < 2 * SIZES; k++)
         plain[0][k] = plain[1][k] = HUGE_VAL;
     for (int round = 0; round < ROUNDS; round++) {
-        ask_program(one_lane, one);
+        other_times(one_lane, CASES, one);
         ask_packets(b, p, ours);
         for (int k = 0; k < 2 * SIZES; k++) {
             const pairs *q = &p[k / SIZES];

@@ -14,6 +14,7 @@
 #include "lights/light.h"
 #include "lights/photometry.h"
 #include "tests/bench/plain_lights.h"
+#include "tests/other_times.h"
 #include "tests/shapes.h"
 
 #include <stdio.h>
@@ -212,23 +213,6 @@ static double plain_ns(const plain_light *l, plain_sum *sum)
     return (seconds() - start) * 1e9 / (PASSES * POINTS);
 }
 
-/* The other program's times of one round */
-static void ask(const char *program, double best[PLAIN_KINDS])
-{
-    char command[512];
-    snprintf(command, sizeof command, "'%s' --times", program);
-    FILE *f = popen(command, "r");
-    for (int k = 0; k < PLAIN_KINDS; k++) {
-        double ns = 0.0;
-        if (!f || fscanf(f, "%lf", &ns) != 1) {
-            fprintf(stderr, "bench_lights: %s does not answer\n", program);
-            exit(1);
-        }
-        best[k] = fmin(best[k], ns);
-    }
-    pclose(f);
-}
-
 enum { OURS, ONE_LANE, PLAIN, PLAIN_X87, SIDES };
 
 static void table(const light *l[PLAIN_KINDS], const plain_light plain[PLAIN_KINDS],
@@ -239,7 +223,7 @@ static void table(const light *l[PLAIN_KINDS], const plain_light plain[PLAIN_KIN
         for (int k = 0; k < PLAIN_KINDS; k++)
             best[side][k] = HUGE_VAL;
     for (int round = 0; round < ROUNDS; round++) {
-        ask(one_lane, best[ONE_LANE]);
+        other_times(one_lane, PLAIN_KINDS, best[ONE_LANE]);
         for (int k = 0; k < PLAIN_KINDS; k++) {
             best[OURS][k]  = fmin(best[OURS][k], packet_ns(l[k]));
             best[PLAIN][k] = fmin(best[PLAIN][k], plain_ns(&plain[k], plain_sum_lights));

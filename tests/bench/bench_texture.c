@@ -11,6 +11,7 @@
  */
 #include "materials/texture.h"
 #include "tests/bench/plain_texture.h"
+#include "tests/other_times.h"
 #include "tests/shapes.h"
 
 #include <math.h>
@@ -164,23 +165,6 @@ static double plain_ns(const plain_texture *t, const places *p)
     return (seconds() - start) * 1e9 / (PASSES * POINTS);
 }
 
-/* The other program's times of one round */
-static void ask(const char *program, double best[CASES])
-{
-    char command[512];
-    snprintf(command, sizeof command, "'%s' --times", program);
-    FILE *f = popen(command, "r");
-    for (int k = 0; k < CASES; k++) {
-        double ns = 0.0;
-        if (!f || fscanf(f, "%lf", &ns) != 1) {
-            fprintf(stderr, "bench_texture: %s does not answer\n", program);
-            exit(1);
-        }
-        best[k] = fmin(best[k], ns);
-    }
-    pclose(f);
-}
-
 typedef struct setting {
     const texture *ours;
     plain_texture plain;
@@ -196,7 +180,7 @@ static void table(const setting *s, const char *one_lane)
         for (int k = 0; k < CASES; k++)
             best[side][k] = HUGE_VAL;
     for (int round = 0; round < ROUNDS; round++) {
-        ask(one_lane, best[ONE_LANE]);
+        other_times(one_lane, CASES, best[ONE_LANE]);
         for (int k = 0; k < CASES; k++) {
             best[OURS][k]  = fmin(best[OURS][k], packet_ns(s[k].ours, &s[k].at));
             best[PLAIN][k] = fmin(best[PLAIN][k], plain_ns(&s[k].plain, &s[k].at));

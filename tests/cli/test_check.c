@@ -9,20 +9,23 @@
 
 /* A node `Spot` that carries no body, and two triangles of 0.5 m^2 that glow: 1 m^2 of pi L lm to
  * each side. */
+#define MODEL(material)                                                                            \
+    "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_materials_emissive_strength\"],"   \
+    "\"materials\":[{" material "}],"                                                              \
+    "\"buffers\":[{\"byteLength\":72,\"uri\":\"data:application/octet-stream;base64,"              \
+    "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAACAPwAAgD8AAAAA"                                             \
+    "AAAAAAAAAAAAAAAAAACAPwAAgD8AAAAAAAAAAAAAgD8AAAAA\"}],"                                        \
+    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":72}],"                                          \
+    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":6,\"type\":\"VEC3\","       \
+    "\"min\":[0,0,0],\"max\":[1,1,0]}],"                                                           \
+    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":0}]}],"            \
+    "\"scene\":0,\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":["                                       \
+    "{\"mesh\":0,\"translation\":[1,1,-1]},{\"name\":\"Spot\",\"translation\":[2,2,-2]}]}"
+
 static const char model[] =
-    "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_materials_emissive_strength\"],"
-    "\"materials\":[{\"name\":\"glow\",\"emissiveFactor\":[1,1,1],"
-    "\"pbrMetallicRoughness\":{\"baseColorFactor\":[0,0,0,1]},"
-    "\"extensions\":{\"KHR_materials_emissive_strength\":{\"emissiveStrength\":50}}}],"
-    "\"buffers\":[{\"byteLength\":72,\"uri\":\"data:application/octet-stream;base64,"
-    "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAACAPwAAgD8AAAAA"
-    "AAAAAAAAAAAAAAAAAACAPwAAgD8AAAAAAAAAAAAAgD8AAAAA\"}],"
-    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":72}],"
-    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":6,\"type\":\"VEC3\","
-    "\"min\":[0,0,0],\"max\":[1,1,0]}],"
-    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":0}]}],"
-    "\"scene\":0,\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":["
-    "{\"mesh\":0,\"translation\":[1,1,-1]},{\"name\":\"Spot\",\"translation\":[2,2,-2]}]}";
+    MODEL("\"name\":\"glow\",\"emissiveFactor\":[1,1,1],"
+          "\"pbrMetallicRoughness\":{\"baseColorFactor\":[0,0,0,1]},"
+          "\"extensions\":{\"KHR_materials_emissive_strength\":{\"emissiveStrength\":50}}");
 
 static const char lamp[] = "IESNA:LM-63-2002\n[TEST] 1\n[TESTLAB] x\n[ISSUEDATE] x\n[MANUFAC] x\n"
                            "TILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 25\n0 180\n0\n100 100\n";
@@ -166,6 +169,31 @@ TEST(materials_are_listed_with_what_they_do)
     folder_free(folder);
 }
 
+/* White of which a tenth is there, and nothing: 0.0995 and 0 of light come back, the rest goes
+ * through. */
+TEST(holes_reflect_nothing_and_let_all_through)
+{
+#define SHEET(alpha)                                                                               \
+    MODEL("\"name\":\"sheet\",\"alphaMode\":\"BLEND\",\"pbrMetallicRoughness\":{"                  \
+          "\"metallicFactor\":0,\"baseColorFactor\":[1,1,1," alpha "]}")
+    static const char *const rows[][2] = {
+        { SHEET("0.1"), "0.100   lets through 0.900   with holes\n" },
+        { SHEET("0"), "0.000   lets through 1.000   with holes\n" },
+    };
+    char *folder     = folder_of_check();
+    program_result r = { 0 };
+    for (int i = 0; i < 2; i++) {
+        folder_write(folder, "model.gltf", rows[i][0]);
+        folder_write(folder, "study.yaml",
+                     "lux4: 1\nroom: {size: [4, 3, 2.5], reflectance: 0.5}\nscene: model.gltf\n");
+        LUX4(folder, 0, &r, "check", "study.yaml");
+        assert_says(&r, rows[i][1]);
+        assert_null(strstr(r.err, "99.5"));
+    }
+    program_free(&r);
+    folder_free(folder);
+}
+
 #define FLAT_BRDF                                                                                  \
     "lux4 brdf 1\nparameters isotropic\ntheta_in 0 90\ntheta_out 0 90\ndelta_phi 0 180\nvalues\n"  \
     "0.0795775 0.0795775 0.0795775 0.0795775 0.0795775 0.0795775 0.0795775 0.0795775\n"
@@ -181,7 +209,7 @@ TEST(tables_are_listed_with_their_figures)
                  "materials: [{match: 'room: walls', brdf: flat.brdf}]\n");
     LUX4(folder, 0, &r, "check", "study.yaml");
     assert_says(&r, "  room: walls            brdf                  0.250   of ");
-    assert_says(&r, "flat.brdf, reciprocal to 0.0 %   (by the study)\n");
+    assert_says(&r, "flat.brdf, reciprocity error 0.0 %   (by the study)\n");
     program_free(&r);
     folder_free(folder);
 }
@@ -211,6 +239,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(materials_are_listed_with_what_they_do),
+        cmocka_unit_test(holes_reflect_nothing_and_let_all_through),
         cmocka_unit_test(tables_are_listed_with_their_figures),
         cmocka_unit_test(boxes_of_glass_are_told_of_with_the_place_in_the_study),
         cmocka_unit_test(lights_are_listed_with_what_is_not_plain),

@@ -133,6 +133,24 @@ TEST(each_break_of_a_file_is_named_with_its_line)
     }
 }
 
+/* A finer axis than any instrument's takes long to integrate, however small its file. */
+TEST(an_axis_has_at_most_2000_places)
+{
+    static const int rows[][2] = { { 2000, 1 }, { 2001, 0 } };
+    for (int row = 0; row < 2; row++) {
+        char text[40000];
+        int at = snprintf(text, sizeof text, "lux4 brdf 1\nparameters half\ntheta_h");
+        for (int i = 0; i < rows[row][0]; i++)
+            at += snprintf(text + at, sizeof text - (size_t)at, " %.3f", 0.04 * i);
+        at += snprintf(text + at, sizeof text - (size_t)at, "\ntheta_d 0\nphi_d 0\nvalues");
+        for (int i = 0; i < rows[row][0]; i++)
+            at += snprintf(text + at, sizeof text - (size_t)at, " .1");
+        assert_int_equal(read_text(text) != NULL, rows[row][1]);
+    }
+    assert_string_equal(err.text, "t.brdf:3: found more than 2000 places on an axis, finer than "
+                                  "any data");
+}
+
 /* Whatever a file holds, it is read or refused; sanitizers see what goes astray. */
 TEST(no_mutation_of_a_file_is_misread)
 {
@@ -292,10 +310,16 @@ TEST(a_merl_file_of_the_wrong_size_is_refused)
     memcpy(bytes, counts, 12);
     assert_null(brdf_read_merl(&memory, "m", bytes, sizeof bytes, NULL, &err));
     assert_non_null(strstr(err.text, "offset 4: found 4294967294"));
-    counts[1] = 9000, counts[0] = 9000;
+    counts[1] = 361;
     memcpy(bytes, counts, 12);
     assert_null(brdf_read_merl(&memory, "m", bytes, sizeof bytes, NULL, &err));
-    assert_non_null(strstr(err.text, "offset 0: found 9000 x 9000 x 2 cells"));
+    assert_non_null(strstr(err.text, "offset 4: found 361, expected"));
+    assert_non_null(strstr(err.text, "each from 1 to 360"));
+    counts[0] = counts[1] = counts[2] = 360;
+    memcpy(bytes, counts, 12);
+    assert_null(brdf_read_merl(&memory, "m", bytes, sizeof bytes, NULL, &err));
+    assert_non_null(strstr(err.text, "offset 0: found 360 x 360 x 360 cells"));
+    counts[2] = 2;
     counts[0] = counts[1] = 2;
     memcpy(bytes, counts, 12);
     double infinite = HUGE_VAL;
@@ -322,6 +346,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_table_is_read_as_its_file_says),
         cmocka_unit_test(each_break_of_a_file_is_named_with_its_line),
+        cmocka_unit_test(an_axis_has_at_most_2000_places),
         cmocka_unit_test(no_mutation_of_a_file_is_misread),
         cmocka_unit_test(a_file_without_memory_is_an_error),
         cmocka_unit_test(places_without_data_become_like_their_neighbours_and_it_is_told),

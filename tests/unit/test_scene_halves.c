@@ -186,7 +186,7 @@ static void assert_leaning_quad(const scene *s)
     assert_near((double)lane(d.normal.x, 0), -0.3 / sqrt(0.73), 1e-5);
     assert_near((double)lane(d.normal.z, 0), 0.8 / sqrt(0.73), 1e-5);
     assert_true(s->smooth && s->textured && !s->hollow);
-    assert_true(s->texture_bytes >= 16);
+    assert_true(s->texture_bytes > s->picture_bytes && s->picture_bytes >= 16);
 }
 
 TEST(coordinates_and_normals_stay_with_their_corners_where_a_place_mirrors)

@@ -116,6 +116,30 @@ TEST(a_matt_paint_reflects_its_base_colour)
     lab_close(&l);
 }
 
+/* The narrow lobe of what passes in part; wide ones settle. */
+TEST(nearly_smooth_surfaces_that_are_clear_in_part_are_told_of)
+{
+    static const struct {
+        const char *made_of;
+        bool told;
+    } rows[] = {
+        { SURFACE("0", "0") "," TRANSMISSION("0.5"), true },
+        { SURFACE("0", "0.09") "," TRANSMISSION("0.5"), true },
+        { SURFACE("0", "0.11") "," TRANSMISSION("0.5"), false },
+        { SURFACE("0", "0.09") "," TRANSMISSION("0"), false },
+    };
+    lab l;
+    lab_open(&l);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        notices told;
+        lab_quads(&l, "model.gltf", &floor_quad, 1,
+                  text_of(&l.a, "\"name\":\"It\",%s", rows[i].made_of));
+        scene_told(&l, STUDY, &told);
+        assert_int_equal(noticed(&told, "results are slow to settle"), rows[i].told);
+    }
+    lab_close(&l);
+}
+
 static double straight(const material *m, float cosine, int channel)
 {
     vvec3 up      = { vsplat(0), vsplat(0), vsplat(1) };
@@ -190,6 +214,7 @@ TEST(a_study_replaces_all_but_glow_and_holes)
     assert_true(it->overridden && it->holes);
     assert_near(it->emission.y, 0.5, 1e-6);
     assert_near(material_of(s, "It")->look.openness, 0.75, 1e-6);
+    assert_near(it->there, 0.25, 1e-6);
     assert_true(it->reflectance.x > 0.3f && it->reflectance.x < 0.5f); /* the lobe's horizon */
     assert_string_equal(info_of(s, "")->kind, "mirror");
     lab_close(&l);
@@ -321,6 +346,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_gltf_material_is_of_the_kind_that_the_table_says),
         cmocka_unit_test(a_matt_paint_reflects_its_base_colour),
+        cmocka_unit_test(nearly_smooth_surfaces_that_are_clear_in_part_are_told_of),
         cmocka_unit_test(a_pane_of_gltf_lets_base_colour_through),
         cmocka_unit_test(a_solid_absorbs_by_its_distance_in_the_study),
         cmocka_unit_test(a_study_replaces_all_but_glow_and_holes),

@@ -410,6 +410,22 @@ TEST(memory_is_a_third_more_than_the_picture)
     arena_clear(&a);
 }
 
+/* Of 3 x 2 texels four are at or above a half, none counted twice by the frame. */
+TEST(a_share_counts_the_texels_of_the_picture_alone)
+{
+    arena a               = { 0 };
+    float rgba[6 * 4]     = { 0 };
+    const float alphas[6] = { 1.0f, 0.5f, 0.0f, 0.75f, 0.5f, 0.25f };
+    for (int i = 0; i < 6; i++)
+        rgba[4 * i + 3] = alphas[i];
+    const texture *t =
+        make(&a, &(texture_desc){ .name = "t", .width = 3, .height = 2, .rgba = rgba });
+    assert_near(texture_share(t, 0.5f), 4.0 / 6.0, 0.0);
+    assert_near(texture_share(t, 0.0f), 1.0, 0.0);
+    assert_near(texture_share(t, 1.5f), 0.0, 0.0);
+    arena_clear(&a);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -426,6 +442,7 @@ int main(void)
         cmocka_unit_test(lanes_are_as_one_lane_and_dark_ones_are_zero),
         cmocka_unit_test(texels_that_are_no_numbers_are_refused_by_name_and_place),
         cmocka_unit_test(sizes_out_of_range_and_full_memory_are_errors),
+        cmocka_unit_test(a_share_counts_the_texels_of_the_picture_alone),
         cmocka_unit_test(memory_is_a_third_more_than_the_picture),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -3,12 +3,12 @@
 #include "core/file.h"
 #include "materials/brdf_bands.h"
 #include "materials/brdf_parts.h"
+#include "tests/folder.h"
 #include "tests/test.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 static arena memory;
 static notices told;
@@ -264,16 +264,16 @@ TEST(a_merl_file_has_its_cells_where_the_database_says)
     put(bytes, 1, 0, 150.0);
     put(bytes, 2, 975779, 150.0);
     put(bytes, 1, 493270 + 180 * 90, -1.0); /* no data: theta_h 31 becomes like 30 */
-    char path[] = "/tmp/lux4_merl_XXXXXX";
-    int fd      = mkstemp(path);
-    assert_true(fd >= 0 && write(fd, bytes, BYTES) == BYTES);
-    close(fd);
+    char *folder = folder_new(), path[400];
+    snprintf(path, sizeof path, "%s/table.binary", folder);
+    FILE *f = fopen(path, "wb");
+    assert_true(f && fwrite(bytes, 1, BYTES, f) == BYTES && fclose(f) == 0);
     free(bytes);
 
     arena_clear(&memory);
     told          = (notices){ .a = &memory };
     const brdf *b = brdf_read(&memory, path, &told, &err);
-    unlink(path);
+    folder_free(folder);
     assert_non_null(b);
     assert_int_equal(told.count, 1);
     assert_true(brdf_figures_of(b)->bytes < 40 << 20);

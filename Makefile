@@ -13,10 +13,10 @@
 VERSION := 0.1.0
 PREFIX  := /usr/local
 LAYERS  := core materials lights sky sim
-PKGS    := OpenEXR tinygltf yaml-0.1 expat
+PKGS    := OpenEXR tinygltf yaml-0.1 expat geographiclib erfa icu-i18n
 PLUGIN_PKGS := OpenImageIO
 TEST_PKGS   := cmocka
-DEBS    := gcc g++ pkg-config libopenexr-dev libtinygltf-dev libyaml-dev libexpat1-dev libopenimageio-dev libcmocka-dev
+DEBS    := gcc g++ pkg-config libopenexr-dev libtinygltf-dev libyaml-dev libexpat1-dev libgeographiclib-dev liberfa-dev libicu-dev libopenimageio-dev libcmocka-dev
 BENCH_DEBS := libembree-dev
 WIDTH   := 4
 

@@ -13,6 +13,7 @@ typedef struct run_options {
     uint32_t seed;
     int threads; /* >= 1 */
     bool direct_only;
+    bool outside;       /* grids: tell grid_result.outside */
     progress *progress; /* may be NULL */
 } run_options;
 
@@ -26,7 +27,13 @@ typedef struct grid_layer {
     double *illuminance, *direct, *half_width;
 } grid_layer;
 
-/* All light is in lux, maintenance applied. */
+/* What one moment of a series gives, all lamps included: lx, a sensor. */
+typedef struct grid_moment {
+    double *illuminance, *direct, *half_width;
+    double *sun; /* [0, 1]: the share of the sun's disk that is seen, glass or not */
+} grid_moment;
+
+/* All light is in lux, maintenance applied to what is no daylight. */
 typedef struct grid_result {
     const study_grid *grid;
     int columns, rows; /* cells along u and v; a list of points has one row */
@@ -38,6 +45,11 @@ typedef struct grid_result {
     double *illuminance, *direct, *indirect, *half_width; /* lx, a sensor */
     int layer_count;
     grid_layer *layers; /* of the scene's groups, if it is layered */
+    int moment_count;   /* of a series, else 0: `illuminance` and all that follows are then of the
+                           first moment, `missed` and `reached` of all */
+    grid_moment *moments;
+    double *outside;  /* lx, a sensor, if asked for: of `indirect` */
+    double *electric; /* lx, a sensor: what is not daylight, where a scene has both; NULL */
 
     double average, minimum, maximum, uniformity; /* lx, lx, lx; minimum / average, 0 if dark */
     double average_half_width;                    /* lx: mean of half_width */

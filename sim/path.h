@@ -45,6 +45,8 @@ typedef struct path_bundle {
                            between or not */
     path_sums indirect; /* after at least one reflection */
     path_sums *layers;  /* NULL; or of each group, undimmed: both; behind them: direct alone */
+    path_sums *outside; /* NULL; or what of `indirect` came last from the ground or from a surface
+                           that is outside */
     float met[PATHS];   /* 1 if the first ray met a surface that gives light on, else 0 */
 } path_bundle;
 

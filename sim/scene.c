@@ -226,7 +226,7 @@ const scene *scene_new(arena *a, const study *from, const scene_options *o, noti
     if (!s || !read_files(&b) || !build_materials(&b) || !build_bounds(&b) || !build_bodies(&b))
         return NULL;
     s->world = build_world(&b);
-    if (!s->world || !build_lamps(&b) || !build_cameras(&b) ||
+    if (!s->world || !build_lamps(&b) || !build_daylight(&b) || !build_cameras(&b) ||
         !scene_textures(&b, &s->texture_bytes, &s->picture_bytes))
         return NULL;
 
@@ -242,6 +242,11 @@ const scene *scene_new(arena *a, const study *from, const scene_options *o, noti
     s->lights_differ  = b.lights_differ;
     s->camera_count   = (int)b.cameras.count;
     s->cameras        = b.cameras.items;
+    s->sun_count      = b.sun_count;
+    s->skies          = b.skies.items;
+    s->sky_count      = (int)b.skies.count;
+    s->moments        = b.moments;
+    s->moment_count   = b.moment_count;
     if (!join_lights(&b, s) || !say_what_surfaces_do(&b, s) || !take_groups(&b, s) ||
         !make_sets(&b, s))
         return NULL;

@@ -12,7 +12,10 @@
 #include "lights/photometry.h"
 #include "materials/material.h"
 #include "sim/gltf.h"
+#include "sim/moments.h"
 #include "sim/study.h"
+#include "sky/dome.h"
+#include "sky/portal.h"
 
 /* Colours are means over textures, and of what is there where there are holes: of all light that
  * meets it a surface reflects reflectance * there. */
@@ -29,15 +32,17 @@ typedef struct scene_material {
     bool textured, bumpy; /* it has textures; a normal map */
     bool holes, box;      /* it has holes; of closed boxes of glass, each taken as one pane */
     bool overridden;      /* by the study's materials */
+    bool exterior;        /* of what the study says is outside */
     bool used;            /* some surface is made of it */
 } scene_material;
 
 /* What paths need to know of a material without asking it. */
 typedef enum material_deed {
-    DOES_ASK    = 1, /* it has a part with a density: lights are asked where it is met */
-    DOES_NARROW = 2, /* it is not matt */
-    DOES_AROUND = 4, /* light from the other side counts */
-    DOES_SOLID  = 8, /* it is the face of a solid that refracts */
+    DOES_ASK      = 1,  /* it has a part with a density: lights are asked where it is met */
+    DOES_NARROW   = 2,  /* it is not matt */
+    DOES_AROUND   = 4,  /* light from the other side counts */
+    DOES_SOLID    = 8,  /* it is the face of a solid that refracts */
+    DOES_EXTERIOR = 16, /* it is outside: light that it gives on comes from there */
 } material_deed;
 
 typedef struct scene_light {
@@ -55,7 +60,16 @@ typedef struct scene_light {
     const study_luminaire *luminaire; /* that entry, if it is one of `luminaires`; NULL */
     int owner;  /* of the instances that do not shade it (world_instance.owner); 0: all do */
     bool clear; /* nothing stands between it and any place in the room */
+    bool sun;
 } scene_light;
+
+/* Light from infinitely far, besides suns: of a moment's sky; of the ground below, as its sky
+ * lights it and as its sun does. */
+typedef struct scene_sky {
+    const sky *sky;
+    int group;   /* in scene.groups */
+    bool ground; /* it has been reflected: light that comes straight from it is not direct */
+} scene_sky;
 
 /* Up to so many lamps are all looked at to choose one; more are chosen from by a tree. */
 enum { FEW_LAMPS = 12 };
@@ -88,7 +102,8 @@ typedef struct scene {
     const material *const *materials;
     const scene_material *material_info;
 
-    int light_count;            /* lamps */
+    int light_count;            /* lamps; the last sun_count of them are suns */
+    int sun_count;              /* asked besides the sets */
     int emitter_count;          /* triangles of glowing surfaces */
     const light *const *lights; /* lamps, then emitters */
     const scene_light *light_info;
@@ -99,6 +114,17 @@ typedef struct scene {
     const int32_t *emitter_of;    /* the emitter that a triangle is, or -1 */
     bool lights_differ;           /* in colour: then luminance does not tell all of a mixture */
     bool extended;                /* some lamp is more than a point */
+
+    /* Daylight. Of several moments each has a group of its own, and "lamps" holds all else; else
+     * there are groups `sun` and `sky`. */
+    const moment *moments;
+    int moment_count; /* 0: neither sky nor sun, else >= 1 */
+    const scene_sky *skies;
+    int sky_count;
+    const dome *dome;       /* over all skies; NULL: none gives light */
+    const portals *portals; /* what they come in by; NULL: none known */
+    int portal_count;
+    bool exteriors; /* some surface is outside */
 
     int group_count; /* of lamps; "other" holds those that are in none */
     const char *const *groups;
@@ -135,6 +161,10 @@ typedef struct scene_options {
     int threads;               /* to build on, >= 1 */
     bool layered;              /* lights as if not dimmed: for a layer of each group */
     const gltf *const *models; /* of study->scenes, in place of their files; NULL */
+    const moment *moments;     /* a series, layered by moment, lamps as dimmed; NULL: the study's
+                                  own one */
+    int moment_count;
+    bool lamps_off; /* lamps and glowing surfaces are left out */
 } scene_options;
 
 /* Builds the scene of a study into a. NULL, with *err naming file and place. What is left out or

@@ -51,7 +51,11 @@ typedef struct scene_build {
     double glow_watts;         /* as in the scene */
     bool smooth;               /* as in the scene */
     bool lights_differ;        /* in colour */
-    dvec3 centre, low, high;   /* m, of the surfaces, in the user's frame */
+    list skies;                /* scene_sky */
+    int sun_count;             /* of the last of `lights` */
+    const moment *moments;     /* as in the scene */
+    int moment_count;
+    dvec3 centre, low, high; /* m, of the surfaces, in the user's frame */
 } scene_build;
 
 /* The places of a study's scene entry: its k-th copy. */
@@ -71,6 +75,13 @@ bool build_lamps(scene_build *b);       /* scene_lamps.c: all that follow */
 bool build_luminaires(scene_build *b);  /* scene_luminaires.c */
 bool build_lights(scene_build *b);      /* scene_lights.c */
 bool build_gltf_lights(scene_build *b); /* scene_lights_gltf.c */
+bool build_daylight(scene_build *b);    /* scene_sky.c, after all lamps: moments, suns, skies */
+
+/* What light comes in by (scene_portals.c), once there is a world; needs s->skies. */
+bool scene_find_portals(scene_build *b, scene *s);
+
+/* The number of a group by its name, which is added if it is new; -1 if memory is out. */
+int scene_group(scene_build *b, const char *name);
 
 /* ---- between the files that make materials --------------------------------------------------- */
 

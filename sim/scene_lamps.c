@@ -36,8 +36,7 @@ double lamp_made_with(const scene_build *b, const study_emission *e)
     return b->options->layered ? 1.0 : dimming_of(b, e);
 }
 
-/* The number of a group by its name; -1 if memory is out. */
-static int group_of(scene_build *b, const char *name)
+int scene_group(scene_build *b, const char *name)
 {
     const char **names = b->groups.items;
     for (size_t i = 0; i < b->groups.count; i++)
@@ -68,7 +67,7 @@ bool lamp_add(scene_build *b, const light *l, const lamp_entry *e)
     const light **to  = list_new(&b->lights, b->a, const light *, b->err);
     scene_light *info = to ? list_new(&b->light_info, b->a, scene_light, b->err) : NULL;
     int group =
-        info ? group_of(b, e->emission->group ? e->emission->group : STUDY_GROUP_OTHER) : -1;
+        info ? scene_group(b, e->emission->group ? e->emission->group : STUDY_GROUP_OTHER) : -1;
     if (group < 0)
         return false;
     vec3 color     = e->emission->color;

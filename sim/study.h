@@ -11,17 +11,42 @@
 #include "core/error.h"
 #include "core/notice.h"
 #include "core/transform.h"
+#include "sky/clock.h"
+#include "sky/site.h"
 
 /* Where in the study something stands, for messages: "FILE:LINE:COLUMN: " with where_text(). */
 typedef struct study_where {
     int line, column; /* from 1 */
 } study_where;
 
+/* What a sensor's plane, or a window, lies on or in. */
+typedef enum study_side {
+    SIDE_NONE, /* a plane of its own, or points */
+    SIDE_ROOM, /* over the floor */
+    SIDE_FLOOR,
+    SIDE_CEILING,
+    SIDE_SOUTH, /* walls: the one at y = 0, */
+    SIDE_EAST,  /* at x = size.x, */
+    SIDE_NORTH, /* at y = size.y, */
+    SIDE_WEST,  /* at x = 0 */
+} study_side;
+
+/* An opening in a wall of the room. All of it lies in the wall, off its edges; no two overlap. */
+typedef struct study_window {
+    study_where where;
+    study_side wall;
+    double at[2];   /* m: from the wall's left end seen from inside; the sill above the floor */
+    double size[2]; /* m, > 0: width, height */
+    double transmittance; /* of its pane at normal incidence, (0, pane_most(1.52)]; 1: no pane */
+} study_window;
+
 typedef struct study_room {
     study_where where;
     bool given;
     dvec3 size;                 /* m, > 0; a corner at the origin */
     vec3 ceiling, walls, floor; /* reflectance, [0, 1] */
+    study_window *windows;
+    int window_count;
 } study_room;
 
 typedef struct study_scene {
@@ -31,8 +56,67 @@ typedef struct study_scene {
     bool lights;      /* on */
     dvec3 *at;        /* m; one of {0,0,0} if not given */
     int at_count;
-    double rotate_deg; /* 0; counter-clockwise seen from above */
+    double rotate_deg;                /* 0; counter-clockwise seen from above */
+    const char **exterior, **portals; /* patterns of nodes, or of materials */
+    int exterior_count, portal_count;
 } study_scene;
+
+/* Where the scene stands on Earth. */
+typedef struct study_site {
+    study_where where;
+    bool given;
+    site at;
+    const clock_zone *zone; /* of local times; NULL: times need an offset of their own */
+    double north_deg;       /* 0: where true north lies, clockwise from +y seen from above */
+} study_site;
+
+/* One moment, or a series: on every day, or each seventh, or the same day of each month, from the
+ * first date to the last, times of day from `from` to `to`, both included, `step` apart. */
+typedef enum study_every { EVERY_DAY, EVERY_WEEK, EVERY_MONTH } study_every;
+typedef struct study_when {
+    study_where where;
+    bool given, series;
+    clock_text at;          /* of one moment */
+    civil_time first, last; /* dates, of a series */
+    int from_min, to_min;   /* minutes of the day, [0, 1439], from <= to */
+    double step_min;        /* > 0; 60 */
+    study_every every;
+} study_when;
+
+typedef enum study_sky_model {
+    STUDY_SKY_NONE,
+    STUDY_SKY_CIE, /* uniform, overcast, intermediate, clear too: see `type` */
+    STUDY_SKY_PEREZ,
+    STUDY_SKY_PANORAMA,
+} study_sky_model;
+
+typedef enum study_sun {
+    STUDY_SUN_MODEL, /* not given: as the model has it */
+    STUDY_SUN_OFF,
+    STUDY_SUN_ON, /* a disk or a point, as the plan finds */
+    STUDY_SUN_DISK,
+    STUDY_SUN_POINT,
+} study_sun;
+
+typedef struct study_sky {
+    study_where where;
+    bool given;
+    study_sky_model model;
+    const char *name; /* of the model as written: "clear" */
+    int type;         /* as cie_desc.type */
+    study_sun sun;
+    double turbidity;       /* 3, Linke's, [1, 20] */
+    double horizontal;      /* lx, of the sky alone (of a panorama: all of it); NAN */
+    double sun_illuminance; /* lx, square to the beam; NAN */
+    bool sun_at_given;
+    double sun_azimuth_deg, sun_elevation_deg; /* in place of site and when */
+    vec3 ground;                               /* reflectance below the horizon, [0, 1]: 0.2 */
+    double direct_normal, diffuse_horizontal;  /* perez: W/m^2 */
+    double dew_point_c;                        /* perez; NAN */
+    const char *file;                          /* panorama, ready to open */
+    double rotate_deg;                         /* panorama: clockwise; 0 */
+    double scale;                              /* panorama: W/(sr m^2) of 1.0; NAN */
+} study_sky;
 
 /* What luminaires and lights share. */
 typedef struct study_emission {
@@ -140,18 +224,6 @@ typedef enum study_quantity {
     QUANTITY_SEMICYLINDRICAL,
 } study_quantity;
 
-/* Where a grid `on: ...` lies. */
-typedef enum study_side {
-    SIDE_NONE, /* a plane of its own, or points */
-    SIDE_ROOM, /* over the floor */
-    SIDE_FLOOR,
-    SIDE_CEILING,
-    SIDE_SOUTH, /* walls: the one at y = 0, */
-    SIDE_EAST,  /* at x = size.x, */
-    SIDE_NORTH, /* at y = size.y, */
-    SIDE_WEST,  /* at x = 0 */
-} study_side;
-
 typedef struct study_grid {
     study_where where;
     const char *name;
@@ -195,6 +267,9 @@ typedef struct study {
     const char *path;   /* as given */
     const char *folder; /* of the study: "." or "a/b" */
     study_room room;
+    study_site site;
+    study_when when;
+    study_sky sky;
     study_scene *scenes;
     study_luminaire *luminaires;
     study_light *lights;

@@ -40,6 +40,22 @@ int command_end(run_end end, const char *what, const char *name, lux_error *err)
     return end == RUN_INTERRUPTED ? EXIT_INTERRUPTED : EXIT_INACCURATE;
 }
 
+bool command_check_grids(const scene *s, const output_place *o, const char *const *extensions,
+                         int count, lux_error *err)
+{
+    const study *from = s->study;
+    bool good         = true;
+    for (int i = 0; i < from->grid_count && good; i++) {
+        arena scratch = { 0 };
+        grid_result ignored;
+        good = grid_sensors(&scratch, s, &from->grids[i], &ignored, err);
+        arena_clear(&scratch);
+    }
+    for (int i = 0; i < from->grid_count && good; i++)
+        good = output_check(from, o, from->grids[i].name, extensions, count, err);
+    return good;
+}
+
 int exit_code_of(const lux_error *err, bool reading)
 {
     switch (err->code) {
@@ -109,4 +125,16 @@ void json_number(FILE *to, double value)
         fprintf(to, "%.9g", value);
     else
         fputs("null", to);
+}
+
+void json_field(const char *name, double value)
+{
+    printf(",\"%s\":", name);
+    json_number(stdout, value);
+}
+
+void json_text(const char *name, const char *value)
+{
+    printf(",\"%s\":", name);
+    json_string(stdout, value);
 }

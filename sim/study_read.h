@@ -6,6 +6,9 @@
 
 /* Values of top-level keys, read into a study. */
 study_read_fn study_read_room, study_read_scenes; /* study_scene.c */
+study_read_fn study_read_site;                    /* study_site.c: study_site */
+study_read_fn study_read_when;                    /* study_when.c: study_when */
+study_read_fn study_read_sky;                     /* study_sky.c: study_sky */
 study_read_fn study_read_materials;               /* study_material.c */
 study_read_fn study_read_luminaires;              /* study_luminaire.c */
 study_read_fn study_read_lights;                  /* study_light.c */

@@ -108,19 +108,24 @@ static bool pass_on(const study *s, study_where where, const lux_error *why, lux
 }
 
 /* The sky needs the sun: what is there to find it by? */
-static bool sun_can_be_found(const study *s, bool timed, lux_error *err)
+static bool sun_can_be_found(const study *s, lux_error *err)
 {
     bool needs = study_needs_sun(s) && !s->sky.sun_at_given;
+    bool timed = s->when.given;
     if (needs && !s->site.given)
         return study_failed(s, s->sky.where, err, ERR_ARGUMENT,
                             "the sky model `%s` needs to know where the sun stands: `site` with "
                             "its `place`%s, or `sun_at` of the sky",
                             s->sky.name, timed ? "" : ", and `when`");
-    return !needs || timed ||
-           study_failed(s, s->sky.where, err, ERR_ARGUMENT,
-                        "the sky model `%s` needs to know where the sun stands: `when`, as "
-                        "2026-06-21T10:00, or `sun_at` of the sky",
-                        s->sky.name);
+    if (needs && !timed)
+        return study_failed(s, s->sky.where, err, ERR_ARGUMENT,
+                            "the sky model `%s` needs to know where the sun stands: `when`, as "
+                            "2026-06-21T10:00, or `sun_at` of the sky",
+                            s->sky.name);
+    return !needs || s->site.zone || s->when.at.has_offset ||
+           study_failed(s, s->when.where, err, ERR_ARGUMENT,
+                        "a local time needs the `zone` of `site`, as Europe/Moscow, or its own "
+                        "offset, as 2026-06-21T10:00+03:00");
 }
 
 bool moment_of(const study *s, moment *out, lux_error *err)
@@ -132,11 +137,11 @@ bool moment_of(const study *s, moment *out, lux_error *err)
                             "needed, as %04d-%02d-%02dT%02d:%02d",
                             w->first.year, w->first.month, w->first.day, w->from_min / 60,
                             w->from_min % 60);
-    if (!sun_can_be_found(s, w->given, err))
+    if (!sun_can_be_found(s, err))
         return false;
     double at     = (double)NAN;
     lux_error why = { 0 };
-    bool timed    = w->given && (s->site.zone || w->at.has_offset || study_needs_sun(s));
+    bool timed    = w->given && (s->site.zone || w->at.has_offset);
     if (timed && !clock_moment(s->site.zone, &w->at, &at, &why))
         return pass_on(s, w->where, &why, err);
     return fill(s, at, out, &why) || pass_on(s, w->given ? w->where : s->sky.where, &why, err);

@@ -134,7 +134,10 @@ static bool add_moments(scene_build *b)
         day_groups in   = { "sun", "sky" };
         if (b->options->moments)
             in = (day_groups){ m->text, m->text };
-        if (b->options->moments && scene_group(b, m->text) != 1 + h)
+        int group = b->options->moments ? scene_group(b, m->text) : 1 + h;
+        if (group < 0)
+            return false;
+        if (group != 1 + h)
             return failed(b->err, ERR_ARGUMENT, "%s: the moment %s stands twice in one series",
                           b->study->path, m->text);
         if (pictured ? !picture || !add_panorama(b, picture, &sun, in)
@@ -151,6 +154,25 @@ static bool add_moments(scene_build *b)
                    b->study->path, b->study->sky.where.line, b->study->sky.where.column, nights,
                    b->moment_count);
     return true;
+}
+
+/* Clocks keep within 3 h of the sun everywhere (China, Argentina): else east and west, or latitude
+ * and longitude, may have been exchanged. */
+static void check_zone(const scene_build *b)
+{
+    const double most_h  = 3.5;
+    const study_site *in = &b->study->site;
+    const moment *m      = &b->moments[0];
+    if (!in->given || !in->zone || isnan(m->at))
+        return;
+    double clocks = clock_offset(in->zone, m->at) / 3600.0;
+    double sun    = in->at.longitude_deg / 15.0;
+    if (fabs(remainder(clocks - sun, 24.0)) > most_h)
+        notice_add(b->notices,
+                   "%s:%d:%d: clocks of the zone (UTC%+g h) are far from the sun's time at "
+                   "longitude %.4g (UTC%+.1f h): is the place right?",
+                   b->study->path, in->where.line, in->where.column, clocks, in->at.longitude_deg,
+                   sun);
 }
 
 /* In a series the lamps are one group, and each moment is one. */
@@ -178,5 +200,6 @@ bool build_daylight(scene_build *b)
         return false;
     b->moments      = moments;
     b->moment_count = count;
+    check_zone(b);
     return (!o->moments || join_lamps(b)) && add_moments(b);
 }

@@ -130,7 +130,7 @@ static bool read_top(const study_reader *r, study *s, int index)
         return false;
     return study_read_map(r, top, &top_keys, s) && study_finish_luminaires(s, r->a, r->err) &&
            study_finish_dimmings(s, r->err) && study_finish_grids(s, r->err) &&
-           names_are_unique(s, r->err);
+           study_finish_when(s, r->a, r->err) && names_are_unique(s, r->err);
 }
 
 /* The study whose keys are those of the node, kept in r->a. */

@@ -3,6 +3,7 @@
 #include "sim/study_read.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static bool pass_on(const study_reader *r, const yaml_node_t *value, const lux_error *why)
@@ -117,4 +118,22 @@ bool study_read_when(const study_reader *r, const yaml_node_t *value, void *fiel
         return false;
     *(study_when *)field = w;
     return true;
+}
+
+/* Where a place has no zone, the time's own offset is the zone. */
+bool study_finish_when(study *s, arena *a, lux_error *err)
+{
+    const study_when *w = &s->when;
+    if (w->given && s->sky.sun_at_given)
+        return study_failed(s, w->where, err, ERR_FORMAT,
+                            "`when` does not go with `sun_at`, which stands in its place%s",
+                            s->variant ? " (`when: ~` in the variant takes it out)" : "");
+    if (!w->given || w->series || !w->at.has_offset || s->site.zone)
+        return true;
+    int minutes = abs(w->at.offset) / 60;
+    char text[16];
+    snprintf(text, sizeof text, "%c%02d:%02d", w->at.offset < 0 ? '-' : '+', minutes / 60 % 100,
+             minutes % 60);
+    s->site.zone = clock_zone_new(a, text, err);
+    return s->site.zone != NULL;
 }

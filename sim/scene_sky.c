@@ -73,9 +73,11 @@ static bool add_sun(scene_build *b, const sun_light_desc *d, const char *group)
                      .far      = true };
     if (!lamp_add(b, made, &e))
         return false;
-    ((scene_light *)b->light_info.items)[b->light_info.count - 1].sun = true;
+    scene_light *info = (scene_light *)b->light_info.items + b->light_info.count - 1;
+    info->sun         = true;
+    info->group       = scene_group(b, group); /* lamps of a series are of one group */
     b->sun_count++;
-    return true;
+    return info->group >= 0;
 }
 
 /* ---- moments --------------------------------------------------------------------------------- */

@@ -41,15 +41,14 @@ static bool read_altitude(const study_reader *r, const yaml_node_t *value, void 
     return read_in(r, value, (range){ -500.0, 9000.0, "an altitude from -500 to 9000 m" }, field);
 }
 
-static bool read_zone(const study_reader *r, const yaml_node_t *value, void *field)
+static bool read_zone(const study_reader *r, const yaml_node_t *value, void *record)
 {
-    const char *text;
-    lux_error why = { 0 };
-    if (!study_read_text(r, value, &text))
+    study_site *to = &((site_draft *)record)->site;
+    lux_error why  = { 0 };
+    if (!study_read_text(r, value, &to->zone_name))
         return false;
-    const clock_zone *zone      = clock_zone_new(r->a, text, &why);
-    *(const clock_zone **)field = zone;
-    return zone || pass_on(r, value, &why);
+    to->zone = clock_zone_new(r->a, to->zone_name, &why);
+    return to->zone || pass_on(r, value, &why);
 }
 
 static bool read_north(const study_reader *r, const yaml_node_t *value, void *field)
@@ -60,7 +59,7 @@ static bool read_north(const study_reader *r, const yaml_node_t *value, void *fi
 static const study_key site_table[] = {
     { "place", STUDY_REQUIRED, read_place, offsetof(site_draft, site.at) },
     { "altitude", STUDY_OPTIONAL, read_altitude, offsetof(site_draft, altitude_m) },
-    { "zone", STUDY_OPTIONAL, read_zone, offsetof(site_draft, site.zone) },
+    { "zone", STUDY_OPTIONAL, read_zone, 0 },
     { "north", STUDY_OPTIONAL, read_north, offsetof(site_draft, site.north_deg) },
 };
 static const study_keys site_keys = STUDY_KEYS("a site", site_table);

@@ -30,23 +30,23 @@ bool daylight_report_of(arena *a, const study *s, const scene *made, daylight_re
 
 /* ---- for people ------------------------------------------------------------------------------ */
 
-static void print_site(const study_site *site)
+static void print_site(const study_site *place)
 {
-    if (!site->given)
+    if (!place->given)
         return;
     printf("  place      %.5f, %.5f degrees (north, east), %g m; true north %g degrees clockwise "
            "of +y\n",
-           site->at.latitude_deg, site->at.longitude_deg, site->at.altitude_m, site->north_deg);
+           place->at.latitude_deg, place->at.longitude_deg, place->at.altitude_m, place->north_deg);
 }
 
-static void print_time(const study_site *site, const char *what, const moment *m)
+static void print_time(const study_site *place, const char *what, const moment *m)
 {
     char utc[CLOCK_TEXT];
     if (isnan(m->at))
         return;
     clock_print(utc, NULL, m->at);
-    printf("  %-10s %s%s%s, UTC %.16s\n", what, m->text, site->zone_name ? " " : "",
-           site->zone_name ? site->zone_name : "", utc);
+    printf("  %-10s %s%s%s, UTC %.16s\n", what, m->text, place->zone_name ? " " : "",
+           place->zone_name ? place->zone_name : "", utc);
 }
 
 static void print_sun(const study *s, const daylight_report *r)
@@ -115,13 +115,13 @@ static void json_value(const char *key, bool known, double value)
     putchar(',');
 }
 
-static void json_site(const study_site *site)
+static void json_site(const study_site *place)
 {
-    json_value("latitude_deg", site->given, site->at.latitude_deg);
-    json_value("longitude_deg", site->given, site->at.longitude_deg);
-    json_value("altitude_m", site->given, site->at.altitude_m);
-    json_value("north_deg", true, site->north_deg);
-    json_text("zone", site->zone_name);
+    json_value("latitude_deg", place->given, place->at.latitude_deg);
+    json_value("longitude_deg", place->given, place->at.longitude_deg);
+    json_value("altitude_m", place->given, place->at.altitude_m);
+    json_value("north_deg", true, place->north_deg);
+    json_text("zone", place->zone_name);
 }
 
 static void json_sun(const study *s, const daylight_report *r)

@@ -1,7 +1,6 @@
 /* sim/scene_bake.c -- meshes that stand in one place, or are small, become one common mesh, in
  * double precision.
  */
-#include "sim/room.h"
 #include "sim/scene_world_parts.h"
 
 #include <string.h>
@@ -101,21 +100,21 @@ void bake_file(scene_build *b, world_parts *w, int i)
     }
 }
 
+/* Walls and panes lie in halves of their own, each with all corners of the room. */
 void bake_room(scene_build *b, world_parts *w)
 {
-    dvec3 corner[ROOM_POSITIONS];
-    uint32_t corners[3 * ROOM_TRIANGLES], made_of[ROOM_TRIANGLES];
-    room_box(b->study->room.size, corner, corners, made_of);
+    const room_mesh *r = &w->room;
     for (int which = 0; which < HALVES; which++) {
         baked *to = &w->common[which];
-        for (int i = 0; i < ROOM_POSITIONS; i++)
-            to->positions[i] = d3_to_float(d3_sub(corner[i], b->centre));
-        to->position_count = ROOM_POSITIONS;
-        for (uint32_t t = 0; t < ROOM_TRIANGLES; t++) {
-            if (w->hollow[made_of[t]] != (which == HOLLOW))
+        for (uint32_t i = 0; i < r->position_count; i++)
+            to->positions[i] = d3_to_float(d3_sub(r->positions[i], b->centre));
+        to->position_count = r->position_count;
+        for (uint32_t t = 0; t < r->triangle_count; t++) {
+            if (w->hollow[r->material[t]] != (which == HOLLOW))
                 continue;
-            memcpy(&to->corners[3 * to->triangle_count], &corners[3 * t], 3 * sizeof *corners);
-            to->material[to->triangle_count++] = made_of[t];
+            memcpy(&to->corners[3 * (size_t)to->triangle_count], &r->corners[3 * (size_t)t],
+                   3 * sizeof *r->corners);
+            to->material[to->triangle_count++] = r->material[t];
         }
     }
 }

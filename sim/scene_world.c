@@ -5,7 +5,6 @@
  * and placed by matrices. Triangles that let light straight through stand apart from the others:
  * each mesh falls into two halves.
  */
-#include "sim/room.h"
 #include "sim/scene_world_parts.h"
 
 /* ---- what stands in several ------------------------------------------------------------------ */
@@ -161,8 +160,8 @@ static bool make_common(scene_build *b, const baked_size *size, baked *to)
 static bool make_room(scene_build *b, world_parts *w)
 {
     size_t meshes           = HALVES;
-    baked_size size[HALVES] = { { ROOM_POSITIONS, ROOM_TRIANGLES },
-                                { ROOM_POSITIONS, ROOM_TRIANGLES } };
+    baked_size room         = { w->room.position_count, w->room.triangle_count };
+    baked_size size[HALVES] = { room, room };
     for (int i = 0; i < b->study->scene_count; i++) {
         const gltf *g = b->files[i];
         if (scene_first_use(b, i) != i)
@@ -218,10 +217,12 @@ static bool add_common(scene_build *b, world_parts *w)
 
 static bool collect(scene_build *b, world_parts *w)
 {
+    const study_room *room = &b->study->room;
+    if (room->given && !room_make(b->a, room, &w->room, b->err))
+        return false;
     if (!look_at_materials(b, w) || !make_room(b, w))
         return false;
-    if (b->study->room.given)
-        bake_room(b, w);
+    bake_room(b, w);
     for (int i = 0; i < b->study->scene_count; i++)
         bake_file(b, w, i);
     if (!add_common(b, w))

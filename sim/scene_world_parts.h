@@ -2,6 +2,7 @@
 #ifndef SIM_SCENE_WORLD_PARTS_H
 #define SIM_SCENE_WORLD_PARTS_H
 
+#include "sim/room.h"
 #include "sim/scene_build.h"
 
 /* What lets light straight through is met by other rays, and stands in meshes of its own. */
@@ -17,6 +18,7 @@ typedef struct baked {
 typedef struct world_parts {
     const bool *hollow;   /* of each material of the scene */
     bool texcoord[2];     /* some used material goes by texture coordinates of that set */
+    room_mesh room;       /* of the study; no triangles: it has none */
     baked common[HALVES]; /* what stands in one place */
     mesh *meshes;         /* the common ones first */
     uint32_t mesh_count;

@@ -4,14 +4,19 @@
 #include "core/parallel.h"
 #include "sim/accuracy.h"
 
-const scene *command_scene(const command_context *c, lux_error *err)
+const study *command_study(const command_context *c, lux_error *err)
 {
     if (c->line->file_count != 1)
         return failed(err, ERR_ARGUMENT,
                       c->line->file_count ? "one study at a time, please"
                                           : "which study? (a .yaml file)");
+    return study_read(c->a, c->line->files[0], c->line->variant, c->notices, err);
+}
+
+const scene *command_scene(const command_context *c, lux_error *err)
+{
     scene_options o = { .threads = command_threads(c), .layered = c->line->groups };
-    const study *s  = study_read(c->a, c->line->files[0], c->line->variant, c->notices, err);
+    const study *s  = command_study(c, err);
     return s ? scene_new(c->a, s, &o, c->notices, err) : NULL;
 }
 
@@ -22,9 +27,9 @@ int command_threads(const command_context *c)
 
 run_options command_run_options(const command_context *c, int left)
 {
-    double now = clock_seconds(), end = c->begun + c->line->seconds;
+    double end = c->begun + c->line->seconds;
     return (run_options){ .accuracy    = c->line->accuracy,
-                          .deadline    = isnan(end) ? HUGE_VAL : now + fmax(end - now, 0.0) / left,
+                          .deadline    = deadline_share(isnan(end) ? HUGE_VAL : end, left),
                           .seed        = c->line->seed,
                           .threads     = command_threads(c),
                           .direct_only = c->line->direct_only,

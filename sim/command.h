@@ -60,8 +60,7 @@ typedef struct command {
 } command;
 
 extern const command command_grid, command_render, command_check, command_photometry,
-    command_material, command_mix,
-    command_daylight;
+    command_material, command_mix, command_daylight;
 
 /* Reads the words behind the command's name. False, with *err, for what cannot be. */
 bool command_line_read(arena *a, const command *c, int count, char *const *words, command_line *out,
@@ -70,7 +69,8 @@ bool command_line_read(arena *a, const command *c, int count, char *const *words
 /* The options that count for a command, one a line, as help shows them. */
 void command_options_print(FILE *to, const command *c);
 
-/* Opens the one study that the line names, and builds its scene. NULL, with *err. */
+/* Opens the one study that the line names; and builds its scene. NULL, with *err. */
+const study *command_study(const command_context *c, lux_error *err);
 const scene *command_scene(const command_context *c, lux_error *err);
 
 /* Threads to run on; and the options of a run. */

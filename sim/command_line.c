@@ -206,7 +206,9 @@ static bool read_option(const command *c, int count, char *const *words, int *at
 bool command_line_read(arena *a, const command *c, int count, char *const *words, command_line *out,
                        lux_error *err)
 {
-    *out = (command_line){ .seed = 1, .accuracy = (double)NAN, .seconds = (double)NAN, .step_min = (double)NAN };
+    *out = (command_line){
+        .seed = 1, .accuracy = (double)NAN, .seconds = (double)NAN, .step_min = (double)NAN
+    };
     const char **files = arena_array(a, const char *, (size_t)count + 1, err);
     if (!files)
         return false;

@@ -9,7 +9,8 @@
 
 /* A new command is one file and one line here. */
 static const command *const commands[] = { &command_grid,     &command_render, &command_photometry,
-                                           &command_material, &command_mix,    &command_check, &command_daylight };
+                                           &command_material, &command_mix,    &command_check,
+                                           &command_daylight };
 enum { COMMANDS = sizeof commands / sizeof *commands };
 
 /* Commands of the contract that are not built yet. */

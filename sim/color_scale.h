@@ -1,0 +1,33 @@
+/* sim/color_scale.h -- false colours: values in bands, each with a colour that prints in grey, too.
+ *
+ * Lightness grows with the value in every ramp, so that a copy in black and white keeps the order.
+ */
+#ifndef SIM_COLOR_SCALE_H
+#define SIM_COLOR_SCALE_H
+
+#include <stdint.h>
+
+typedef enum color_ramp {
+    RAMP_LIGHT, /* indigo, blue, green, yellow: light */
+    RAMP_HOURS, /* violet, red, orange, sand: hours of sun */
+} color_ramp;
+
+/* Band i holds limit[i] <= x < limit[i + 1]; the first what is less, the last what is more, too. */
+enum { MOST_BANDS = 10 };
+typedef struct color_scale {
+    color_ramp ramp;
+    int bands;                    /* >= 1 */
+    double limit[MOST_BANDS + 1]; /* ascending, the first one 0 */
+} color_scale;
+
+/* For values up to `most`: limits in the series 1, 2, 5 down to a thousandth of that; or equal
+ * steps of 1, 2, 2.5 or 5 times a power of ten. 0 or less: a scale up to 1. */
+color_scale color_scale_125(color_ramp ramp, double most);
+color_scale color_scale_even(color_ramp ramp, double most);
+
+int color_scale_band(const color_scale *s, double x);
+
+/* sRGB. */
+void color_scale_color(const color_scale *s, int band, uint8_t rgb[3]);
+
+#endif

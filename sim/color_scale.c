@@ -4,6 +4,7 @@
 #include "sim/svg.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 /* The k-th number of ... 0.5, 1, 2, 5, 10, 20, ...; the 0-th is 1. */
 static double number_125(int k)

@@ -39,7 +39,7 @@ double lamp_made_with(const scene_build *b, const study_emission *e)
 int scene_group(scene_build *b, const char *name)
 {
     const char **names = b->groups.items;
-    for (size_t i = 0; i < b->groups.count; i++)
+    for (size_t i = b->groups.count; i-- > 0;) /* mostly it is one of the last */
         if (!strcmp(names[i], name))
             return (int)i;
     const char **to = list_new(&b->groups, b->a, const char *, b->err);
@@ -179,6 +179,8 @@ static void warn_of_mixed_dimming(const scene_build *b)
 
 bool build_lamps(scene_build *b)
 {
+    if (b->options->lamps_off)
+        return true;
     if (!build_luminaires(b) || !build_lights(b) || !build_gltf_lights(b))
         return false;
     warn_of_mixed_dimming(b);

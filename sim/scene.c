@@ -85,9 +85,10 @@ static bool say_what_surfaces_do(const scene_build *b, scene *s)
     int32_t *does = arena_array(b->a, int32_t, (size_t)s->material_count + 1, b->err);
     for (int i = 0; does && i < s->material_count; i++) {
         const scene_material *m = &s->material_info[i];
-        does[i]                 = deeds_of(s->materials[i]);
+        does[i]                 = deeds_of(s->materials[i]) | (m->exterior ? DOES_EXTERIOR : 0);
         if (!m->used)
             continue;
+        s->exteriors |= m->exterior;
         s->reflects |= !is_dark(m->reflectance) || !is_dark(m->transmittance);
         s->glows |= !is_dark(m->emission);
         s->textured |= m->textured;

@@ -89,6 +89,7 @@ static bool say_what_surfaces_do(const scene_build *b, scene *s)
         does[i]                 = deeds_of(s->materials[i]) | (m->exterior ? DOES_EXTERIOR : 0);
         if (!m->used)
             continue;
+        s->exteriors |= m->exterior;
         s->reflects |= !is_dark(m->reflectance) || !is_dark(m->transmittance);
         s->glows |= !is_dark(m->emission);
         s->textured |= m->textured;

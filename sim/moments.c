@@ -288,9 +288,10 @@ moment *moments_of(arena *a, const study *s, const study_when *when, int *count,
 {
     *count = 0;
     if (!when->given)
-        return study_failed(s, s->sky.where, err, ERR_ARGUMENT,
-                            "a series of times needs `when`, as {date: 2026-03-21, from: "
-                            "\"08:00\", to: \"18:00\", step: 60}");
+        return failed(err, ERR_ARGUMENT,
+                      "%s: a series of times needs `when`, as {date: 2026-03-21, from: \"08:00\", "
+                      "to: \"18:00\", step: 60}",
+                      s->path);
     if (!when->series) {
         study one   = *s;
         moment *out = arena_new(a, moment, err);

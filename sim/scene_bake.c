@@ -9,9 +9,9 @@
 
 enum { MOST_COPIED = 20000 }; /* triangles of all copies of a mesh */
 
-half half_of(const world_parts *w, const mesh *m, uint32_t first, int which)
+half half_of(const world_parts *w, const mesh *m, const uint32_t *made_of, int which)
 {
-    half h = { m, first, 0, which };
+    half h = { m, made_of, 0, which };
     for (uint32_t t = 0; t < m->triangle_count; t++)
         h.count += half_has(w, &h, t);
     return h;
@@ -90,7 +90,7 @@ void bake_file(scene_build *b, world_parts *w, int i)
         if (!mesh_is_baked(b, i, p->mesh))
             continue;
         for (int which = 0; which < HALVES; which++) {
-            half h = half_of(w, &g->meshes[p->mesh].triangles, b->first_material[i], which);
+            half h = half_of(w, &g->meshes[p->mesh].triangles, scene_made_of(b, i, k), which);
             for (int c = 0; c < s->at_count; c++) {
                 transform copy     = scene_copy_place(s, c);
                 transform to_world = transform_product(&copy, &p->place);

@@ -330,5 +330,5 @@ bool build_materials(scene_build *b)
     }
     b->first_material = first;
     tell_bounded(b);
-    return all_patterns_match(b);
+    return all_patterns_match(b) && build_exteriors(b);
 }

@@ -290,7 +290,7 @@ TEST(a_series_needs_a_zone_and_a_sun_that_moves)
         { "when: {date: 2026-06-21, from: 08:00}\nsite: {place: 0N 0E}\n",
           "3:7: a series of times needs `site` with its `zone`, as Europe/Moscow or +03:00" },
         { "site: {place: 0N 0E, zone: UTC}\n",
-          "0:0: a series of times needs `when`, as {date: 2026-03-21, from: \"08:00\", to: "
+          " a series of times needs `when`, as {date: 2026-03-21, from: \"08:00\", to: "
           "\"18:00\", step: 60}" },
     };
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {

@@ -67,7 +67,7 @@ TEST(each_key_of_a_site_is_checked_where_it_stands)
           "2:29: expected an angle from -360 to 360 degrees, found `361`" },
         { "site: {place: 0N 0E, north: .nan}", "2:29: expected a number, found `.nan`" },
         { "site: {place: [55, 37]}", "2:15: expected a text, found a list of 2" },
-        { "site: {place: }", "2:14: expected a text, found nothing" },
+        { "site: {place: }", "2:15: expected a text, found nothing" },
         { "site: {place: 0N 0E, zone: []}", "2:28: expected a text, found a list of 0" },
     };
     ALL_REFUSED(table, ERR_FORMAT);

@@ -60,14 +60,21 @@ static bool pass_on(scene_build *b, study_where where)
     return false;
 }
 
+/* In a series all lamps are one. */
+static int lamp_group(scene_build *b, const char *name)
+{
+    if (b->options->moments)
+        return scene_group(b, SCENE_LAMPS);
+    return scene_group(b, name ? name : STUDY_GROUP_OTHER);
+}
+
 bool lamp_add(scene_build *b, const light *l, const lamp_entry *e)
 {
     if (!l)
         return pass_on(b, e->where);
     const light **to  = list_new(&b->lights, b->a, const light *, b->err);
     scene_light *info = to ? list_new(&b->light_info, b->a, scene_light, b->err) : NULL;
-    int group =
-        info ? scene_group(b, e->emission->group ? e->emission->group : STUDY_GROUP_OTHER) : -1;
+    int group         = info ? lamp_group(b, e->emission->group) : -1;
     if (group < 0)
         return false;
     vec3 color     = e->emission->color;

@@ -17,6 +17,11 @@ study_read_fn study_read_grids;                   /* study_grid.c */
 study_read_fn study_read_views;                   /* study_view.c */
 study_read_fn study_read_variants;                /* study_variant.c */
 
+/* `windows` of a room, into a study_room; and, once its size is known, whether they fit: `list` is
+ * where they stand (NULL: there are none). */
+study_read_fn study_read_windows; /* study_window.c */
+bool study_check_windows(const study_reader *r, const study_room *room, const yaml_node_t *list);
+
 /* What luminaires and lights share: their name, and what is in their `emission`. */
 /* clang-format off */
 #define STUDY_EMITTER_KEYS(record) \

@@ -7,9 +7,6 @@
 TEST(every_key_of_the_contract_that_is_not_built_is_refused_by_name)
 {
     static const broken_study table[] = {
-        { "room: {windows: []}", "2:8: `windows` is not supported yet" },
-        { "scene: {file: a, exterior: [b]}", "2:18: `exterior` is not supported yet" },
-        { "scene: [{file: a, portals: [b]}]", "2:19: `portals` is not supported yet" },
         { "views: [{projection: fisheye}]", "2:22: `fisheye` is not supported yet" },
         { "views: [{projection: panorama}]", "2:22: `panorama` is not supported yet" },
     };

@@ -27,9 +27,9 @@ static int forget(void **state)
     return 0;
 }
 
-#define ROOM "lux4: 1\nroom: {size: [4, 3, 2.5], reflectance: 0.5}\n"
-#define GRID "grids: [{name: g, on: floor, spacing: 1}]\n"
-#define LAMP "lights: [{type: point, at: [1, 1, 1], intensity: 100, group: desk}]\n"
+#define ROOM   "lux4: 1\nroom: {size: [4, 3, 2.5], reflectance: 0.5}\n"
+#define GRID   "grids: [{name: g, on: floor, spacing: 1}]\n"
+#define LAMP   "lights: [{type: point, at: [1, 1, 1], intensity: 100, group: desk}]\n"
 #define MOSCOW "site: {place: 55.7558N 37.6173E, altitude: 150, zone: Europe/Moscow}\n"
 
 static const study *study_in_lab(const char *variant, const char *yaml)
@@ -74,9 +74,9 @@ static double lux(vec3 irradiance) { return LUMENS_PER_WATT * (double)rgb_lumina
 /* cd/m^2 straight up or down. */
 static double luminance(const sky *s, float up)
 {
-    vvec3 wi = { vset(0.0f), vset(0.0f), vset(up) };
-    vrgb l_  = sky_radiance(s, &wi, vmask_all());
-    vec3 one = { lane(l_.x, 0), lane(l_.y, 0), lane(l_.z, 0) };
+    vvec3 wi = vspread((vec3){ 0, 0, up });
+    vrgb all = sky_radiance(s, &wi, ALL_LANES);
+    vec3 one = { lane(all.x, 0), lane(all.y, 0), lane(all.z, 0) };
     return LUMENS_PER_WATT * (double)rgb_luminance(one);
 }
 
@@ -169,8 +169,8 @@ TEST(black_ground_is_none)
 
 TEST(what_is_not_given_in_lux_is_worked_out_by_formula)
 {
-    const scene *s =
-        scene_in_lab(ROOM GRID MOSCOW "when: 2026-06-21T10:00\nsky: {model: clear, turbidity: 4}\n");
+    const scene *s       = scene_in_lab(ROOM GRID MOSCOW
+                                        "when: 2026-06-21T10:00\nsky: {model: clear, turbidity: 4}\n");
     const sun_place *sun = &s->moments[0].sun;
     double h             = sun->apparent_elevation_deg;
     assert_near(lux(s->skies[0].sky->horizontal), sky_diffuse_lx(12, h, 150.0, 4.0), 1e-6);
@@ -180,10 +180,10 @@ TEST(what_is_not_given_in_lux_is_worked_out_by_formula)
 
 TEST(a_sky_of_perez_has_his_figures)
 {
-    const study *of = study_in_lab(NULL, ROOM GRID
-                                   "sky: {sun_at: {azimuth: 180, elevation: 45}, perez: "
-                                   "{direct_normal: 600, diffuse_horizontal: 120}}\n");
-    const scene *s  = scene_with(of, NULL);
+    const study *of =
+        study_in_lab(NULL, ROOM GRID "sky: {sun_at: {azimuth: 180, elevation: 45}, perez: "
+                                     "{direct_normal: 600, diffuse_horizontal: 120}}\n");
+    const scene *s = scene_with(of, NULL);
     moment_light m;
     lux_error err = { 0 };
     assert_true(moment_light_of(&l.a, of, &s->moments[0], &m, &err));
@@ -198,7 +198,7 @@ TEST(at_night_all_is_dark_and_that_is_said)
         scene_in_lab(ROOM LAMP GRID MOSCOW "when: 2026-06-21T00:00\nsky: {model: clear}\n");
     assert_int_equal(s->sky_count + s->sun_count, 0);
     assert_int_equal(s->moment_count, 1);
-    assert_said("study.yaml:6:6: the sun is below the horizon: the sky is dark");
+    assert_said("study.yaml:7:6: the sun is below the horizon: the sky is dark");
     /* A sky that does not look at the sun, and is given in lux, is not */
     s = scene_in_lab(ROOM LAMP GRID MOSCOW
                      "when: 2026-06-21T00:00\nsky: {model: overcast, horizontal: 10}\n");
@@ -207,9 +207,9 @@ TEST(at_night_all_is_dark_and_that_is_said)
 
 TEST(a_sun_that_gives_nothing_is_no_lamp)
 {
-    const scene *s = scene_in_lab(ROOM GRID
-                                  "sky: {model: clear, horizontal: 10, sun_illuminance: 0,\n"
-                                  "      sun_at: {azimuth: 90, elevation: 30}}\n");
+    const scene *s =
+        scene_in_lab(ROOM GRID "sky: {model: clear, horizontal: 10, sun_illuminance: 0,\n"
+                               "      sun_at: {azimuth: 90, elevation: 30}}\n");
     assert_int_equal(s->sun_count, 0);
     assert_int_equal(s->sky_count, 2);
 }
@@ -232,11 +232,9 @@ TEST(a_panorama_brings_its_own_ground)
     lux_error err = { 0 };
     for (int i = 0; i < 3 * W * H; i++)
         pixels[i] = 2.0f;
-    image im = { .width = W, .height = H, .channel_count = 3 };
-    (void)im;
-    snprintf(path, sizeof path, "%s/sky.exr", l.folder);
     image_channel channels[] = { { "R", pixels }, { "G", pixels }, { "B", pixels } };
-    im.channels              = channels;
+    image im = { .width = W, .height = H, .channel_count = 3, .channels = channels };
+    snprintf(path, sizeof path, "%s/sky.exr", l.folder);
     assert_true(image_write_exr(path, &im, false, &said, &err));
     const scene *s = scene_in_lab(ROOM GRID "sky: {panorama: {file: sky.exr, scale: 3}}\n");
     assert_int_equal(s->sky_count, 1);
@@ -278,10 +276,9 @@ TEST(lamps_and_glowing_surfaces_may_be_left_out)
 
 TEST(each_moment_of_a_series_is_a_group_of_its_sun_and_sky)
 {
-    const study *of =
-        study_in_lab(NULL, ROOM LAMP GRID MOSCOW
-                     "when: {date: 2026-03-21, from: 00:00, to: 12:00, step: 240}\n"
-                     "sky: {model: clear}\n");
+    const study *of = study_in_lab(NULL, ROOM LAMP GRID MOSCOW
+                                   "when: {date: 2026-03-21, from: 00:00, to: 12:00, step: 240}\n"
+                                   "sky: {model: clear}\n");
     int count;
     lux_error err       = { 0 };
     const moment *all   = moments_of(&l.a, of, &of->when, &count, &said, &err);

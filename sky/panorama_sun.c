@@ -254,7 +254,9 @@ void panorama_split_sun(const panorama_map *m, panorama_sun *out, notices *n)
     blob b          = { 0 };
     find_peak(&s);
     visit(&s, near_deg, around_deg, add_mean, &around);
-    s.around    = around.weight > 0.0 ? around.light / around.weight : 0.0;
+    if (around.weight == 0.0) /* pixels of ten degrees and more: there is no telling */
+        return;
+    s.around    = around.light / around.weight;
     s.threshold = sqrt(s.peak * s.around);
     look_all_around(&s);
     visit(&s, 0.0, near_deg, add_to_blob, &b);
@@ -264,6 +266,7 @@ void panorama_split_sun(const panorama_map *m, panorama_sun *out, notices *n)
     }
 
     double length = length_of(b.toward), e[3] = { 0.0, 0.0, 0.0 };
+    out->clipped = is_clipped(&s, &b);
     find_fill(&s, &b);
     visit(&s, 0.0, near_deg, take_out, &b);
     for (int c = 0; c < 3; c++)
@@ -274,5 +277,4 @@ void panorama_split_sun(const panorama_map *m, panorama_sun *out, notices *n)
                                 (float)(b.toward[2] / length) };
     out->irradiance   = (vec3){ (float)e[0], (float)e[1], (float)e[2] };
     out->diameter_deg = fmax(sun_deg, diameter_of(length, s.peak));
-    out->clipped      = is_clipped(&s, &b);
 }

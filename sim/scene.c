@@ -249,7 +249,7 @@ const scene *scene_new(arena *a, const study *from, const scene_options *o, noti
     s->moments        = b.moments;
     s->moment_count   = b.moment_count;
     if (!join_lights(&b, s) || !say_what_surfaces_do(&b, s) || !take_groups(&b, s) ||
-        !make_sets(&b, s))
+        !make_sets(&b, s) || !scene_find_portals(&b, s))
         return NULL;
     find_clear_lights(&b, s);
     s->light_info = b.light_info.items;

@@ -91,8 +91,13 @@ static bool add(scene_build *b, const material_source *s)
     scene_material *info = list_new(&b->material_info, b->a, scene_material, b->err);
     if (!m || !info)
         return false;
+    gltf_material from  = *s->from;
+    material_source own = *s;
+    own.from            = &from;
+    if (b->options->lamps_off)
+        from.emission = (vec3){ 0, 0, 0 };
     *info = (scene_material){ .name = s->from->name, .overridden = s->instead, .used = s->used };
-    *m    = s->instead ? material_of_study(b, s, info) : material_of_gltf(b, s, info);
+    *m    = s->instead ? material_of_study(b, &own, info) : material_of_gltf(b, &own, info);
     if (*m)
         describe(*m, info);
     return *m != NULL;

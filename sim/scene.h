@@ -132,6 +132,7 @@ typedef struct scene {
     const portals *portals; /* what they come in by; NULL: none known */
     int portal_count;
     const portal *portal_list;
+    const char *portals_from; /* "2 room windows"; NULL: there are none */
     bool exteriors; /* some surface is outside */
 
     int group_count; /* of lamps; "other" holds those that are in none */

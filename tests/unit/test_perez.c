@@ -3,8 +3,8 @@
 #include "core/color.h"
 #include "sky/sky.h"
 #include "tests/shapes.h"
-#include "tests/sky_twin.h"
 #include "tests/test.h"
+#include "tests/two_angle_twin.h"
 
 #include <string.h>
 
@@ -45,7 +45,7 @@ static const double efficacy[8][8] = {
 
 static perez_desc desc_of(double elevation_deg, double direct, double diffuse)
 {
-    return (perez_desc){ .to_sun             = sky_twin_sun(elevation_deg),
+    return (perez_desc){ .to_sun             = angle_twin_sun(elevation_deg),
                          .direct_normal      = direct,
                          .diffuse_horizontal = diffuse,
                          .dew_point_c        = NAN,
@@ -69,7 +69,7 @@ static int weather(const perez_desc *d, double *zenith, double *epsilon, double 
     return bin;
 }
 
-static sky_twin twin_of(const perez_desc *d)
+static angle_twin twin_of(const perez_desc *d)
 {
     double z, epsilon, delta, x[5];
     int bin = weather(d, &z, &epsilon, &delta);
@@ -83,7 +83,7 @@ static sky_twin twin_of(const perez_desc *d)
     }
     double s[3] = { (double)d->to_sun.x, (double)d->to_sun.y, (double)d->to_sun.z };
     double size = sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
-    return (sky_twin){
+    return (angle_twin){
         x[0], fmin(x[1], 0), 1, x[2], x[3], x[4], { s[0] / size, s[1] / size, s[2] / size }
     };
 }
@@ -149,11 +149,11 @@ TEST(radiance_is_that_of_the_twin_in_all_directions)
         perez_desc d = desc_of(days[i][0], days[i][1], days[i][2]);
         perez_figures f;
         const sky *s = sky_perez(&a, &d, &f, NULL);
-        sky_twin t   = twin_of(&d);
+        angle_twin t = twin_of(&d);
         double even  = f.diffuse_lx / LUMENS_PER_WATT / pi;
         vec3 up      = { 0, 0, 1 };
-        double scale = sky_green(s, up) / sky_twin_at(&t, (double[]){ 0, 0, 1 });
-        assert_near(scale * sky_twin_level(&t, 300), even * pi, 5e-4); /* its midpoints */
+        double scale = sky_green(s, up) / angle_twin_at(&t, (double[]){ 0, 0, 1 });
+        assert_near(scale * angle_twin_level(&t, 300), even * pi, 5e-4); /* its midpoints */
         for (int k = 0; k < 1000; k++) {
             vec3 w = random_direction(&seed);
             w.z    = fabsf(w.z);
@@ -168,7 +168,7 @@ TEST(radiance_is_that_of_the_twin_in_all_directions)
                             d.to_sun.z + w.z * 1e-2f };
             w = v3_scale(w, 1 / v3_length(w));
             double want =
-                scale * sky_twin_at(&t, (double[]){ (double)w.x, (double)w.y, (double)w.z });
+                scale * angle_twin_at(&t, (double[]){ (double)w.x, (double)w.y, (double)w.z });
             double off = fabs(sky_green(s, w) - want) / fmax(want, 0.01 * even);
             worst      = fmax(worst, off);
         }

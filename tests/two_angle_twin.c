@@ -1,17 +1,17 @@
-/* tests/sky_twin.c -- see sky_twin.h. */
-#include "tests/sky_twin.h"
+/* tests/two_angle_twin.c -- see two_angle_twin.h. */
+#include "tests/two_angle_twin.h"
 
 #include <math.h>
 
 static const double pi = 3.14159265358979324;
 
-vec3 sky_twin_sun(double elevation_deg)
+vec3 angle_twin_sun(double elevation_deg)
 {
     double h = elevation_deg * pi / 180, c = elevation_deg == 90 ? 0 : cos(h);
     return (vec3){ (float)(0.6 * c), (float)(-0.8 * c), (float)sin(h) };
 }
 
-double sky_twin_at(const sky_twin *t, const double w[3])
+double angle_twin_at(const angle_twin *t, const double w[3])
 {
     const double *s = t->sun;
     double x = w[1] * s[2] - w[2] * s[1], y = w[2] * s[0] - w[0] * s[2],
@@ -25,14 +25,14 @@ double sky_twin_at(const sky_twin *t, const double w[3])
     return fmax(g * f, 0);
 }
 
-double sky_twin_level(const sky_twin *t, int rings)
+double angle_twin_level(const angle_twin *t, int rings)
 {
     double sum = 0;
     for (int i = 0; i < rings; i++)
         for (int j = 0; j < 2 * rings; j++) {
             double r = sqrt((i + 0.5) / rings), phi = pi * (j + 0.5) / rings;
             double way[3] = { r * cos(phi), r * sin(phi), sqrt(1 - r * r) };
-            sum += sky_twin_at(t, way);
+            sum += angle_twin_at(t, way);
         }
     return sum * pi / (2.0 * rings * rings);
 }

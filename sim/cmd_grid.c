@@ -88,7 +88,7 @@ static void print_json(const grid_result *r, bool first)
 {
     fputs(first ? "{\"grids\":[{\"name\":" : ",{\"name\":", stdout);
     json_string(stdout, r->grid->name);
-    json_text("quantity", grid_quantity_name(r->grid->quantity));
+    json_field_text("quantity", grid_quantity_name(r->grid->quantity));
     json_field("sensors", r->sensor_count);
     json_field("average_lx", r->average);
     json_field("minimum_lx", r->minimum);

@@ -138,7 +138,7 @@ void json_field(const char *name, double value)
     json_number(stdout, value);
 }
 
-void json_text(const char *name, const char *value)
+void json_field_text(const char *name, const char *value)
 {
     printf(",\"%s\":", name);
     json_string(stdout, value);

@@ -106,6 +106,6 @@ void json_number(FILE *to, double value);
 
 /* One more member of an object on stdout, its comma before it. */
 void json_field(const char *name, double value);
-void json_text(const char *name, const char *value);
+void json_field_text(const char *name, const char *value);
 
 #endif

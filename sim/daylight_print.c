@@ -90,7 +90,7 @@ static void begin_grid(const grid_result *r, bool first)
 {
     fputs(first ? "{\"grids\":[{\"name\":" : ",{\"name\":", stdout);
     json_string(stdout, r->grid->name);
-    json_text("quantity", grid_quantity_name(r->grid->quantity));
+    json_field_text("quantity", grid_quantity_name(r->grid->quantity));
     json_field("sensors", r->sensor_count);
     if (r->left_out)
         json_field("sensors_left_out", r->left_out);

@@ -289,7 +289,7 @@ bool daylight_sheet_write(const char *path, const daylight_series *s, lux_error 
 
 /* ---- the daylight factor --------------------------------------------------------------------- */
 
-static void draw_factor(FILE *out, const daylight_factor *f, const char *sky)
+static void draw_factor(FILE *out, const daylight_factor *f, const char *under)
 {
     color_scale scale = color_scale_125(RAMP_LIGHT, f->maximum);
     double aspect = sheet_aspect(f->plan), room = PAGE_WIDTH - 2.0 * MARGIN;
@@ -301,7 +301,7 @@ static void draw_factor(FILE *out, const daylight_factor *f, const char *sky)
     sheet_write(out, &(sheet_text){ MARGIN, 63.0, 12.0, PALE, false, false },
                 "%s; average %.2f %%, median %.2f %%, minimum %.2f %%, %.0f %% of the sensors "
                 "at %g %% or more%s",
-                sky, f->average, f->median, f->minimum, 100.0 * f->share, FACTOR_LEAST,
+                under, f->average, f->median, f->minimum, 100.0 * f->share, FACTOR_LEAST,
                 f->plan->end == RUN_INTERRUPTED ? "; partial: interrupted" : "");
     sheet_legend(out, MARGIN + 8.0, 80.0, 0.5 * room, &scale, "%");
     sheet_plan(out, &b, f->plan, f->all, &scale);
@@ -309,12 +309,12 @@ static void draw_factor(FILE *out, const daylight_factor *f, const char *sky)
     svg_end(out);
 }
 
-bool daylight_factor_sheet_write(const char *path, const daylight_factor *f, const char *sky,
+bool daylight_factor_sheet_write(const char *path, const daylight_factor *f, const char *under,
                                  lux_error *err)
 {
     output_file to;
     if (!file_create(&to, path, err))
         return false;
-    draw_factor(to.stream, f, sky);
+    draw_factor(to.stream, f, under);
     return file_commit(&to, err);
 }

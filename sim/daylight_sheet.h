@@ -16,8 +16,8 @@ enum { MOST_PLANS = 400 };
 /* All moments, and the hours of sun if there are such. s->count > 0. */
 bool daylight_sheet_write(const char *path, const daylight_series *s, lux_error *err);
 
-/* One plan with its numbers; `sky` is the name of the sky. */
-bool daylight_factor_sheet_write(const char *path, const daylight_factor *f, const char *sky,
+/* One plan with its numbers; `under` names the sky. */
+bool daylight_factor_sheet_write(const char *path, const daylight_factor *f, const char *under,
                                  lux_error *err);
 
 #endif

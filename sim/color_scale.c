@@ -1,8 +1,6 @@
 /* sim/color_scale.c -- see color_scale.h. */
 #include "sim/color_scale.h"
 
-#include "sim/svg.h"
-
 #include <math.h>
 #include <stdlib.h>
 
@@ -15,25 +13,32 @@ static double number_125(int k)
     return power >= 0 ? digit[k - 3 * power] * scale : digit[k - 3 * power] / scale;
 }
 
-color_scale color_scale_125(color_ramp ramp, double most)
+color_scale color_scale_125(color_ramp ramp, double least, double most)
 {
     color_scale s = { .ramp = ramp, .bands = MOST_BANDS };
     int top       = most > 0.0 ? (int)floor(3.0 * log10(most)) - 1 : 0;
     while (number_125(top) < most)
         top++;
-    for (int i = 1; i <= MOST_BANDS; i++)
-        s.limit[i] = number_125(top - MOST_BANDS + i);
+    for (s.bands = 1; s.bands < MOST_BANDS && number_125(top - s.bands) > least;)
+        s.bands++;
+    for (int i = 0; i <= s.bands; i++)
+        s.limit[i] = number_125(top - s.bands + i);
+    if (s.limit[0] > least)
+        s.limit[0] = 0.0;
     return s;
 }
 
 color_scale color_scale_even(color_ramp ramp, double most)
 {
-    double step   = svg_step(most > 0.0 ? most : 1.0);
-    color_scale s = { .ramp = ramp };
-    s.bands       = most > 0.0 ? (int)ceil(most / step - 1e-9) : (int)ceil(1.0 / step);
-    s.bands       = s.bands < 1 ? 1 : s.bands;
-    for (int i = 1; i <= s.bands; i++)
-        s.limit[i] = step * i;
+    static const double steps[] = { 1.0, 2.0, 2.5, 5.0, 10.0 };
+    double up                   = most > 0.0 ? most : 1.0;
+    double power                = pow(10.0, floor(log10(up / MOST_BANDS)));
+    int i                       = 0;
+    while (MOST_BANDS * steps[i] * power < up * (1.0 - 1e-9))
+        i++;
+    color_scale s = { .ramp = ramp, .bands = (int)ceil(up / (steps[i] * power) - 1e-9) };
+    for (int k = 0; k <= s.bands; k++)
+        s.limit[k] = steps[i] * power * k;
     return s;
 }
 

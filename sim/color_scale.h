@@ -17,12 +17,14 @@ enum { MOST_BANDS = 10 };
 typedef struct color_scale {
     color_ramp ramp;
     int bands;                    /* >= 1 */
-    double limit[MOST_BANDS + 1]; /* ascending, the first one 0 */
+    double limit[MOST_BANDS + 1]; /* ascending */
 } color_scale;
 
-/* For values up to `most`: limits in the series 1, 2, 5 down to a thousandth of that; or equal
- * steps of 1, 2, 2.5 or 5 times a power of ten. 0 or less: a scale up to 1. */
-color_scale color_scale_125(color_ramp ramp, double most);
+/* For values from `least` (>= 0) to `most`: limits in the series 1, 2, 5, the lowest 0 where the
+ * bands do not reach down to `least`. */
+color_scale color_scale_125(color_ramp ramp, double least, double most);
+
+/* From 0 to `most`: equal steps of 1, 2, 2.5 or 5 times a power of ten. */
 color_scale color_scale_even(color_ramp ramp, double most);
 
 int color_scale_band(const color_scale *s, double x);

@@ -193,7 +193,7 @@ static void draw_sun(const sheet *d, int row, int column)
         sum += s->sun_hours[k] / s->plan.sensor_count;
     snprintf(below, sizeof below, "avg %.1f h%s", sum, s->dates > 1 ? " a day" : "");
     sheet_plan(d->out, &b, &s->plan, s->sun_hours, &d->hours);
-    draw_label(d, &b, "sun", below);
+    draw_label(d, &b, "direct sun", below);
 }
 
 static void draw_plans(const sheet *d)
@@ -241,14 +241,14 @@ static void draw_header(const sheet *d)
     if (d->at.every > 1)
         snprintf(left_out, sizeof left_out, "; one %s of %d is drawn",
                  d->at.by_date || s->dates > 1 ? "date" : "time", d->at.every);
-    sheet_write(d->out, &line, "%s, %d sensors%s%s%s", grid_quantity_name(s->plan.grid->quantity),
-                s->plan.sensor_count, s->sun_hours ? "; sun: hours of direct sun" : "", left_out,
+    sheet_write(d->out, &line, "%s, %d sensors%s%s", grid_quantity_name(s->plan.grid->quantity),
+                s->plan.sensor_count, left_out,
                 s->end == RUN_INTERRUPTED ? "; partial: interrupted" : "");
     double room = PAGE_WIDTH - 2.0 * MARGIN;
     sheet_legend(d->out, MARGIN + 8.0, 80.0, 0.5 * room, &d->light, "lx");
     if (s->sun_hours)
         sheet_legend(d->out, MARGIN + 0.64 * room, 80.0, 0.22 * room, &d->hours,
-                     s->dates > 1 ? "h of sun a day" : "h of sun");
+                     s->dates > 1 ? "hours of sun a day" : "hours of sun");
     sheet_north(d->out, d->at.page_width - MARGIN - 16.0, 44.0, &s->plan, s->north_deg);
 }
 
@@ -257,12 +257,14 @@ static bool draw(sheet *d, lux_error *err)
     const daylight_series *s = d->s;
     if (!find_slots(d, err))
         return false;
-    double most = 0.0, longest = 0.0;
-    for (int h = 0; h < s->count; h++)
-        most = fmax(most, s->of[h].maximum);
+    double least = HUGE_VAL, most = 0.0, longest = 0.0;
+    for (int h = 0; h < s->count; h++) {
+        least = fmin(least, s->of[h].minimum);
+        most  = fmax(most, s->of[h].maximum);
+    }
     for (int k = 0; s->sun_hours && k < s->plan.sensor_count; k++)
         longest = fmax(longest, s->sun_hours[k]);
-    d->light = color_scale_125(RAMP_LIGHT, most);
+    d->light = color_scale_125(RAMP_LIGHT, least, most);
     d->hours = color_scale_even(RAMP_HOURS, longest);
     lay_out(d);
     svg_begin(d->out, d->at.page_width, d->at.page_height);
@@ -291,7 +293,7 @@ bool daylight_sheet_write(const char *path, const daylight_series *s, lux_error 
 
 static void draw_factor(FILE *out, const daylight_factor *f, const char *under)
 {
-    color_scale scale = color_scale_125(RAMP_LIGHT, f->maximum);
+    color_scale scale = color_scale_125(RAMP_LIGHT, f->minimum, f->maximum);
     double aspect = sheet_aspect(f->plan), room = PAGE_WIDTH - 2.0 * MARGIN;
     double width = fmin(room, (PAGE_HEIGHT - HEADER - MARGIN) / aspect);
     sheet_box b  = { MARGIN, HEADER, width, fmax(width * aspect, 2.0 * LEAST_HEIGHT) };

@@ -29,6 +29,7 @@ typedef struct sheet_layout {
     int slots, dates;
     int every;            /* n-th date (or moment) is drawn */
     double width, height; /* of a plan */
+    double sun_scale;     /* of the plan of sun, in these */
     double left;          /* where plans begin */
     double page_width, page_height;
 } sheet_layout;
@@ -122,12 +123,15 @@ static void lay_out(sheet *d)
     l->by_date               = s->dates > 1 && l->slots > 1;
     l->left                  = MARGIN + (l->by_date ? DATE_WIDTH : 0.0);
     l->every                 = 1;
+    l->sun_scale             = 1.0;
     if (l->by_date) {
         int fit    = MOST_PLANS / l->slots > 1 ? MOST_PLANS / l->slots : 1;
         l->every   = divided(s->dates, fit);
         l->columns = l->slots;
         l->rows    = divided(s->dates, l->every) + sun;
         size_plans(l, aspect);
+        l->sun_scale = l->slots > 3 && l->width < 0.5 * MOST_WIDTH ? 2.5 : 1.0;
+        l->page_height += sun * (l->sun_scale - 1.0) * l->height;
     } else {
         l->every = divided(s->count, MOST_PLANS);
         flow(l, divided(s->count, l->every) + sun, aspect);
@@ -187,7 +191,8 @@ static void draw_sun(const sheet *d, int row, int column)
 {
     const daylight_series *s = d->s;
     sheet_box b              = box_of(&d->at, row, column);
-    double sum               = 0.0;
+    b.width *= d->at.sun_scale, b.height *= d->at.sun_scale;
+    double sum = 0.0;
     char below[48];
     for (int k = 0; k < s->plan.sensor_count; k++)
         sum += s->sun_hours[k] / s->plan.sensor_count;

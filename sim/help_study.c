@@ -135,9 +135,7 @@ static const char text[] =
 "  size         [px, px]        [1024, 768] with camera: the height follows the camera\n"
 "\n"
 "variants       {NAME: {changed keys}, ...}: merged by key with --variant NAME; what is no\n"
-"               mapping is replaced, ~ takes a key out\n"
-"\n"
-"Not supported yet: room: windows; scene: exterior, portals.\n";
+"               mapping is replaced, ~ takes a key out\n";
 /* clang-format on */
 
 void help_study(FILE *to) { fputs(text, to); }

@@ -229,7 +229,7 @@ TEST(radiance_pictures_are_read_and_grey_ones)
     /* (m + 0 or 0.5) / 256 2^(e - 128) */
     const sky *s = panorama_of_bytes(
         &b, "hdr",
-        "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n\x80\x40\x20\x83\x80\x80\x80\x90", 56);
+        "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n\x80\x40\x20\x83\x80\x80\x80\x90", 53);
     assert_near(look(s, -1, 0, 0).x, 4.0, 0.005);
     assert_near(look(s, -1, 0, 0).y, 2.0, 0.01);
     assert_near(look(s, 1, 0, 0).z, 32768.0, 0.005);

@@ -177,21 +177,11 @@ static void check_zone(const scene_build *b)
                    sun);
 }
 
-/* In a series the lamps are one group, and each moment is one. */
-static bool join_lamps(scene_build *b)
-{
-    scene_light *info = b->light_info.items;
-    for (size_t i = 0; i < b->light_info.count; i++)
-        info[i].group = 0;
-    b->groups.count = 0;
-    return scene_group(b, "lamps") == 0;
-}
-
 bool build_daylight(scene_build *b)
 {
     const scene_options *o = b->options;
     if (!study_has_daylight(b->study))
-        return !o->moments || join_lamps(b);
+        return true;
     int count       = o->moments ? o->moment_count : 1;
     moment *moments = arena_array(b->a, moment, (size_t)count, b->err);
     if (!moments)
@@ -203,5 +193,5 @@ bool build_daylight(scene_build *b)
     b->moments      = moments;
     b->moment_count = count;
     check_zone(b);
-    return (!o->moments || join_lamps(b)) && add_moments(b);
+    return add_moments(b);
 }

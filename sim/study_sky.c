@@ -305,8 +305,8 @@ static bool sun_fits(const study_reader *r, const yaml_node_t *map, const sky_dr
     char out[80];
     const yaml_node_t *haze = study_map_value(r, map, "turbidity");
     const yaml_node_t *beam = study_map_value(r, map, "sun_illuminance");
-    bool cloudy             = d->sky.type < 7 || d->sky.type > 15;
-    if (haze && cloudy && !has_sun(d))
+    bool clear              = d->sky.type >= 11 && d->sky.type <= 15; /* sky_diffuse_lx() */
+    if (haze && !clear && !has_sun(d))
         return study_node_failed(r, haze, ERR_FORMAT,
                                  "`turbidity` means nothing to the sky model `%s` without a sun%s",
                                  d->model->word.name, way_out(r, "turbidity", out));

@@ -93,6 +93,7 @@ $B/liblux4.a: $(SRC:%=$B/%.o) $B/links
 $(PROG): $B/sim/main.c.o
 $(TESTS) $(LONG) $(BENCH): $B/%: $B/%.c.o $(AIDS:%=$B/%.o)
 $(filter $B/tests/cli/%,$(TESTS)): | $(PROG) $(PLUG) # which they run
+$B/tests/bench/bench_sky: | $(PLUG) # which reads a panorama
 $(TESTS) $(LONG) $(BENCH): private LDFLAGS += -Wl,--wrap=aligned_alloc
 $(TESTS) $(LONG) $(BENCH): private LDLIBS += $(TEST_LIBS)
 $B/tests/bench/bench_trace: private LDLIBS += -lembree3

@@ -5,7 +5,7 @@
  *
  * Directions are anywhere above the horizon, neighbours far apart: the worst that a panorama's
  * cache may meet. A sample is a direction drawn by the dome, with its density, and the sky's
- * radiance there. The panorama is the clear sky, 1024 x 512 pixels. All sides take turns in short
+ * radiance there. The panorama is the clear sky, 256 x 128 pixels. All sides take turns in short
  * rounds, so that whatever else the machine does meets all of them; the best round counts, by the
  * thread's own clock. Before the clock starts, what packets and plain C (plain_sky.c) make of each
  * direction is compared.
@@ -24,9 +24,9 @@
 #include <string.h>
 #include <time.h>
 
-enum { POINTS = 2048, PACKETS = POINTS / LANES, PASSES = 8, ROUNDS = 25 };
+enum { POINTS = 2048, PACKETS = POINTS / LANES, PASSES = 16, ROUNDS = 4 };
 enum { UNIFORM, OVERCAST, TYPE_1, TYPE_7, TYPE_12, PEREZ, PANORAMA, KINDS };
-enum { WIDE = 1024, HIGH = 512 };
+enum { WIDE = 256, HIGH = 128 };
 
 static const char *const names[KINDS] = { "uniform",     "overcast", "CIE type 1", "CIE type 7",
                                           "CIE type 12", "Perez",    "panorama" };

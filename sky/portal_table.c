@@ -264,26 +264,36 @@ static int cell_of(double x, double z, int cells)
     return i < 0 ? 0 : i < cells ? i : cells - 1;
 }
 
-/* Adds the light of bright cells of the sky, W/m^2, where they are. */
-static void add_bright(double *light, const portal_table *t, const brightness *bright)
+/* Adds light from a direction, W/m^2 of so many sr, to the cell that holds it. None that is smaller
+ * than the source: there the middle of the cell tells. */
+static void add_light(double *light, const double *angles, const portal_table *t,
+                      const double from[3], double luminance, double angle)
+{
+    double ahead = component(t->outward, from[0], from[1], from[2]);
+    if (ahead <= 0.0)
+        return;
+    int i     = cell_of(component(t->u, from[0], from[1], from[2]), ahead, t->cells);
+    int j     = cell_of(component(t->v, from[0], from[1], from[2]), ahead, t->cells);
+    size_t at = (size_t)j * (size_t)t->cells + (size_t)i;
+    if (angle < angles[at])
+        light[at] += luminance * angle;
+}
+
+static void add_bright(double *light, const double *angles, const portal_table *t,
+                       const brightness *bright)
 {
     for (int row = 0; row < bright->rows; row++) {
         double top = M_PI * row / bright->rows, bottom = M_PI * (row + 1.0) / bright->rows;
-        double angle  = 2.0 * M_PI * (cos(top) - cos(bottom)) / bright->columns;
-        double middle = 0.5 * (top + bottom), r = sin(middle), up = cos(middle);
+        double angle        = 2.0 * M_PI * (cos(top) - cos(bottom)) / bright->columns;
+        double middle       = 0.5 * (top + bottom);
+        const float *of_row = bright->luminance + (size_t)row * (size_t)bright->columns;
         for (int column = 0; column < bright->columns; column++) {
-            double y =
-                (double)bright->luminance[(size_t)row * (size_t)bright->columns + (size_t)column];
-            if (y <= BRIGHT * bright->mean)
-                continue;
             double azimuth = (2.0 * (column + 0.5) / bright->columns - 1.0) * M_PI;
-            double east = r * sin(azimuth), north = r * cos(azimuth);
-            double ahead = component(t->outward, east, north, up);
-            if (ahead <= 0.0)
-                continue;
-            int i = cell_of(component(t->u, east, north, up), ahead, t->cells);
-            int j = cell_of(component(t->v, east, north, up), ahead, t->cells);
-            light[(size_t)j * (size_t)t->cells + (size_t)i] += y * angle;
+            if ((double)of_row[column] > BRIGHT * bright->mean)
+                add_light(light, angles, t,
+                          (double[]){ sin(middle) * sin(azimuth), sin(middle) * cos(azimuth),
+                                      cos(middle) },
+                          (double)of_row[column], angle);
         }
     }
 }
@@ -331,11 +341,11 @@ bool portal_table_fill(arena *a, portal_table *t, const brightness *bright, lux_
     double *light  = sums ? arena_array(&scratch, double, 2 * n * n, err) : NULL;
     if (light) {
         double *angle = light + n * n;
-        add_bright(light, t, bright);
+        for (size_t at = 0; at < n * n; at++)
+            angle[at] = cell_angle((int)(at % n), (int)(at / n), t->cells);
+        add_bright(light, angle, t, bright);
         for (size_t at = 0; at < n * n; at++) {
-            int i = (int)(at % n), j = (int)(at / n);
-            double y  = luminance_at(t, bright, i, j) + FLOOR * bright->mean;
-            angle[at] = cell_angle(i, j, t->cells);
+            double y = luminance_at(t, bright, (int)(at % n), (int)(at / n)) + FLOOR * bright->mean;
             light[at] = fmax(light[at], angle[at] * (bright->mean > 0.0 ? y : 1.0));
         }
         sum_up(t, sums, light, angle, bright->mean);

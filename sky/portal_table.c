@@ -26,11 +26,12 @@ static portal_span span_of(vfloat x, vfloat half, vfloat z, int cells, vmask *wi
 {
     vfloat x0 = x - half, x1 = x + half;
     vfloat r0 = vsqrt(x0 * x0 + z * z), r1 = vsqrt(x1 * x1 + z * z);
-    vfloat a0 = half_tangent(x0, z, r0);
-    vfloat a1 = half_tangent(x1, z, r1);
-    vfloat cross =
+    vfloat apart =
         vselect(x0 * x1 > 0.0f, 4.0f * half * x * z * z / (x1 * r0 + x0 * r1), x1 * r0 - x0 * r1);
-    vfloat width = (2.0f * half * z + cross) / ((z + r0) * (z + r1));
+    vfloat by    = 1.0f / ((z + r0) * (z + r1));
+    vfloat a0    = x0 * (z + r1) * by;
+    vfloat a1    = x1 * (z + r0) * by;
+    vfloat width = (2.0f * half * z + apart) * by;
 
     const float scale = 0.5f * (float)cells;
     vfloat begin = scale + scale * a0, end = scale + scale * a1;

@@ -221,7 +221,7 @@ vmask portals_cross(const portals *all, const vvec3 *p, const vvec3 *wi, vmask a
 
 /* Of all tables: the more orientations there are, the fewer cells has each. */
 static const size_t MOST_BYTES = 16 << 20;
-enum { MOST_CELLS = 128, FEWEST_CELLS = 16 };
+enum { MOST_CELLS = 256, FEWEST_CELLS = 16 };
 
 /* rad, about. Portals that are turned against each other by less share a frame: of one wall, as
  * floats have it. */

@@ -154,10 +154,15 @@ TEST(of_two_sunrises_the_first_of_two_sunsets_the_last_counts)
 TEST(what_is_no_date_is_refused)
 {
     const site s          = { 0 };
-    const civil_time no[] = { { 2026, 2, 29, 0, 0, 0 }, { 2026, 13, 1, 0, 0, 0 },
-                              { 2026, 0, 1, 0, 0, 0 },  { 1899, 12, 31, 0, 0, 0 },
-                              { 2101, 1, 1, 0, 0, 0 },  { 2147483647, 2147483647, 1, 0, 0, 0 } };
-    for (int i = 0; i < 6; i++) {
+    const civil_time no[] = { { 2026, 2, 29, 0, 0, 0 },
+                              { 2026, 13, 1, 0, 0, 0 },
+                              { 2026, 0, 1, 0, 0, 0 },
+                              { 1899, 12, 31, 0, 0, 0 },
+                              { 2101, 1, 1, 0, 0, 0 },
+                              { 2147483647, 2147483647, 1, 0, 0, 0 },
+                              { 2026, 2147483647, -2147483647, 0, 0, 0 },
+                              { 1970, 0, 1, 0, 0, 0 } };
+    for (int i = 0; i < 8; i++) {
         sun_day d;
         lux_error err = { 0 };
         assert_false(sun_day_of(&s, NULL, &no[i], &d, &err));

@@ -123,7 +123,7 @@ TEST(it_rises_and_sets_when_tables_say)
 }
 
 /* Latitude, longitude, the eve, and when the sun stood at -18, -12 and -6 degrees, on its way up
- * and down; rounded to the minute, in which it moves by 0.23 degrees. */
+ * and down; by the minute, in which it moves by 0.23 degrees: rounded or cut. */
 TEST(twilight_is_when_tables_say)
 {
     const double want[] = { -18.0, -12.0, -6.0, -6.0, -12.0, -18.0 };
@@ -136,7 +136,7 @@ TEST(twilight_is_when_tables_say)
                   at[1], at[2], at[3], at[4], at[5], at[6]) == 9) {
         for (int i = 0; i < 6; i++) {
             sun_place p = sun_bare(latitude, longitude, moment_of(at[1 + i]));
-            if (!(fabs(p.elevation_deg - want[i]) < 0.15))
+            if (!(fabs(p.elevation_deg - want[i]) < 0.23))
                 fail_msg("%s: %g, not %g", at[1 + i], p.elevation_deg, want[i]);
         }
         lines++;

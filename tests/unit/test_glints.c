@@ -99,6 +99,39 @@ TEST(a_second_pane_in_the_beam_is_told_of)
     assert_false(scene_of(CORNER(""))->glints);
 }
 
+/* What the notice says, 0 to 1. */
+static double share_told(void)
+{
+    double percent = 0.0;
+    for (const notice *n = told.first; n; n = n->next) {
+        const char *at = strstr(n->text, ": about ");
+        if (at && strstr(n->text, "of the sunlight"))
+            assert_int_equal(sscanf(at, ": about %lf %%", &percent), 1);
+    }
+    return 0.01 * percent;
+}
+
+/* All of the south and the north wall is glass. Sunlight sinks by 1 m on its way through the room:
+ * a third of it falls on the floor, R of the rest comes back from the north pane, of which as much
+ * falls on the floor, and R of what is then left comes back from the south pane: glints are
+ * (R + R^2) / (1 + R + R^2). Of glass R = r (1 + a T), with r = ((n - 1) / (n + 1))^2 and a, what
+ * passes once within it, from T = (1 - r)^2 a / (1 - r^2 a^2). The notice has two digits, and is of
+ * some 3000 beams: 4 %. */
+TEST(the_share_of_glints_is_what_two_panes_send_to_and_fro)
+{
+    char text[600];
+    snprintf(text, sizeof text,
+             "room: {size: [4, 6, 3], reflectance: 0.5, windows: [\n"
+             "  {wall: south, at: [0.001, 0.001], size: [3.998, 2.998], transmittance: 0.8},\n"
+             "  {wall: north, at: [0.001, 0.001], size: [3.998, 2.998], transmittance: 0.8}]}\n" SUN
+             "{azimuth: 180, elevation: %.12g}}\n",
+             atan(1.0 / 6.0) * 180 / M_PI);
+    assert_true(scene_of(text)->glints);
+    double r = pow(0.52 / 2.52, 2), e2 = (1 - r) * (1 - r), t = 0.8;
+    double a = 2 * t / (e2 + sqrt(e2 * e2 + 4 * r * r * t * t)), R = r * (1 + a * t);
+    assert_near(share_told(), (R + R * R) / (1 + R + R * R), 0.04);
+}
+
 /* Glass of a facade that faces the sun, and a court before it. */
 TEST(a_glass_facade_lights_the_court_before_it)
 {
@@ -135,6 +168,7 @@ int main(void)
         CASE(a_mirror_in_the_sun_is_told_of),
         CASE(a_mirror_in_the_shade_is_not),
         CASE(a_second_pane_in_the_beam_is_told_of),
+        CASE(the_share_of_glints_is_what_two_panes_send_to_and_fro),
         CASE(a_glass_facade_lights_the_court_before_it),
         CASE(lamps_are_judged_as_before),
     };

@@ -228,7 +228,7 @@ static double floor_of(const run_state *s, int channel)
 /* What the accuracy asked for is relative to. */
 static double against_of(const run_state *s, int channel, int item)
 {
-    double floor = s->floors[channel < 2 ? channel : 1];
+    double floor = s->floors[channel < 2 || s->d->apart ? channel : 1];
     return fmax(fabs(value_of(s, channel, item)), floor);
 }
 
@@ -270,9 +270,12 @@ static int compare(const void *a, const void *b)
 }
 
 /* The channels that are held to the accuracy begin here. */
-static int first_held(const run_state *s) { return s->judged > 1 ? 1 : 0; }
+static int first_held(const run_state *s) { return s->judged > 1 && !s->d->apart ? 1 : 0; }
 
-static double share_of(int channel) { return channel ? PARTS_SHARE : 1.0; }
+static double share_of(const run_state *s, int channel)
+{
+    return channel && !s->d->apart ? PARTS_SHARE : 1.0;
+}
 
 /* No sample found anything, and they are too few to say that there is nothing: the spread of
  * zeros is 0, and would be taken for certainty. */
@@ -287,7 +290,7 @@ static double worst_ratio(const run_state *s, int item)
 {
     double worst = 0.0;
     for (int q = first_held(s); q < s->judged; q++) {
-        double ratio = is_in_doubt(s, q, item) ? HUGE_VAL : ratio_of(s, q, item) / share_of(q);
+        double ratio = is_in_doubt(s, q, item) ? HUGE_VAL : ratio_of(s, q, item) / share_of(s, q);
         worst        = ratio <= worst ? worst : ratio; /* no number is no certainty */
     }
     return isnan(worst) ? HUGE_VAL : worst;
@@ -298,8 +301,8 @@ static bool can_be_good(const run_state *s, int item)
 {
     bool can = true;
     for (int q = first_held(s); q < s->judged && s->d->bound; q++)
-        can = can &&
-              s->d->bound[at(s, q, item)] <= share_of(q) * s->d->accuracy * against_of(s, q, item);
+        can = can && s->d->bound[at(s, q, item)] <=
+                         share_of(s, q) * s->d->accuracy * against_of(s, q, item);
     return can;
 }
 

@@ -1,6 +1,7 @@
 /* sim/cmd_check.c -- lux4 check: reads a study and all that it names, and simulates nothing. */
 #include "sim/camera.h"
 #include "sim/command.h"
+#include "sim/daylight_report.h"
 #include "sim/sensor.h"
 
 #include <limits.h>
@@ -18,6 +19,8 @@ static double bytes_of_picture(double decoded) { return 1.25 * decoded; }
 static const double bytes_of_reader = 117.0 * 1024.0 * 1024.0;
 
 typedef struct findings {
+    const study *study; /* as read: of a series the scene has the first moment */
+    daylight_report daylight;
     world_stats world;
     double textures; /* bytes */
     double picture;  /* bytes, of the largest while it is loaded: before there is a world */
@@ -285,6 +288,8 @@ static void print_json(const scene *s, const findings *f, const group_sum *sums)
 {
     fputs("{\"study\":", stdout);
     json_string(stdout, s->study->path);
+    putchar(',');
+    daylight_report_json(f->study, &f->daylight);
     printf(",\"triangles\":%llu,\"placed_triangles\":%llu,\"bytes_per_triangle\":",
            (unsigned long long)f->world.triangles, (unsigned long long)f->world.placed_triangles);
     json_number(stdout,
@@ -320,16 +325,46 @@ static int name_width(const scene *s)
     return width;
 }
 
+/* The study at the first of its moments. */
+static const study *at_first_moment(const command_context *c, const study *s, lux_error *err)
+{
+    int count;
+    study *first        = arena_new(c->a, study, err);
+    const moment *found = first ? moments_of(c->a, s, &s->when, &count, c->notices, err) : NULL;
+    if (!found)
+        return NULL;
+    *first      = *s;
+    first->when = (study_when){ .where = s->when.where, .given = true };
+    return clock_read(&first->when.at, found->text, err) ? first : NULL;
+}
+
+static const scene *open_scene(const command_context *c, const study **as_read, lux_error *err)
+{
+    if (c->line->file_count != 1)
+        return command_scene(c, err); /* which says so */
+    scene_options o = { .threads = command_threads(c), .layered = c->line->groups };
+    const study *s  = study_read(c->a, c->line->files[0], c->line->variant, c->notices, err);
+    *as_read        = s;
+    if (s && s->when.given && s->when.series)
+        s = at_first_moment(c, s, err);
+    return s ? scene_new(c->a, s, &o, c->notices, err) : NULL;
+}
+
 static int check_command(const command_context *c, lux_error *err)
 {
-    const scene *s = command_scene(c, err);
+    findings f;
+    const study *as_read = NULL;
+    const scene *s       = open_scene(c, &as_read, err);
     group_sum *sums;
     if (!s || !sum_groups(c->a, s, &sums, err))
         return exit_code_of(err, true);
-    findings f = { .world      = world_statistics(s->world),
-                   .textures   = (double)s->texture_bytes,
-                   .picture    = bytes_of_picture((double)s->picture_bytes),
-                   .name_width = name_width(s) };
+    f = (findings){ .study      = as_read,
+                    .world      = world_statistics(s->world),
+                    .textures   = (double)s->texture_bytes,
+                    .picture    = bytes_of_picture((double)s->picture_bytes),
+                    .name_width = name_width(s) };
+    if (!daylight_report_of(c->a, as_read, s, &f.daylight, err))
+        return exit_code_of(err, true);
     for (int g = 0; g < s->group_count; g++)
         f.lumens += sums[g].lumens;
     bool print = !c->line->json;
@@ -337,6 +372,7 @@ static int check_command(const command_context *c, lux_error *err)
         return exit_code_of(err, true); /* before anything is called good */
     if (print) {
         print_world(s, &f);
+        daylight_report_print(as_read, &f.daylight);
         print_materials(s);
         print_lights(s, &f);
         print_groups(s, &f, sums);

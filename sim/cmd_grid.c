@@ -60,11 +60,13 @@ static void print_table(const scene *s, const grid_result *r, const totals *t)
            r->minimum, r->maximum, r->uniformity, worst, r->seconds);
     if (r->grid->quantity != QUANTITY_PLANAR)
         printf("  %s\n", grid_quantity_name(r->grid->quantity));
-    double m = s->study->maintenance;
-    if (s->study->maintenance_given && m > 0.0 && m != 1.0)
+    double m             = s->study->maintenance;
+    bool electric        = scene_lamp_count(s) > 0 || s->glows;
+    grid_summary initial = grid_initial(r, m);
+    if (s->study->maintenance_given && electric && m != 1.0)
         printf("  %-*s %8s %11.1f %11.1f %11.1f %8s   (above: maintained, factor %g)\n",
-               t->name_width - 2, "initial", "", r->average / m, r->minimum / m, r->maximum / m, "",
-               m);
+               t->name_width - 2, "initial", "", initial.average, initial.minimum, initial.maximum,
+               "", m);
 
     grid_requirement asked[MOST_REQUIREMENTS];
     int count = grid_requirements(r, asked);

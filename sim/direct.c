@@ -245,10 +245,15 @@ void direct_one(const scene *s, direct_scratch *w, const direct_batch *b, direct
     end_picks(s, w, b->packets, RAYS_INCOHERENT, out);
 }
 
+static const light_set *set_of(const scene *s, int group)
+{
+    return &s->sets[s->layered ? s->set_of_group[group] : 0];
+}
+
 vfloat direct_glow_pdf(const scene *s, const vsurface *at, const vvec3 *wi, vint emitter,
                        bool glow_alone, vmask around, vmask active)
 {
-    const light_set *set = glow_alone ? &s->glow_set : &s->sets[s->layered ? s->glow_group : 0];
+    const light_set *set = glow_alone ? &s->glow_set : set_of(s, s->glow_group);
     vmask left           = active & (emitter >= 0);
     if (s->emitter_count == 0 || !vany(left))
         return (vfloat){ 0 };
@@ -279,11 +284,13 @@ static int place_in_set(const light_set *set, int l)
 vfloat direct_lamp_pdf(const scene *s, const vsurface *at, const vvec3 *wi, int l, vmask around,
                        vmask active)
 {
-    const light_set *set = &s->sets[s->layered ? s->light_info[l].group : 0];
+    const light_set *set = set_of(s, s->light_info[l].group);
     const light *lamp    = s->lights[l];
     vlight_hit hit;
     vmask met = lamp->type->hit(lamp, &at->position, wi, active, &hit);
     vfloat chance;
+    if (s->light_info[l].sun) /* asked besides all others */
+        return vkeep(met, hit.pdf);
     if (set->tree) {
         vvec3 n    = horizon_of(at, around);
         vint index = vsplat_int(place_in_set(set, l));

@@ -18,7 +18,7 @@ static void weigh_sampled(direct_sensor *w, const vsurface *at, vmask active)
     direct_weigh(w, at, active);
     for (int layer = 0; layer < w->layers; layer++)
         w->sampled[layer] = (vfloat){ 0 };
-    for (int l = 0; l < w->s->light_count; l++) {
+    for (int l = 0; l < scene_lamp_count(w->s); l++) {
         int layer          = direct_layer(w, l);
         vmask sampled      = active & ~direct_is_known(w, l);
         vfloat weight      = light_has_extent(w->s->lights[l]) ? w->lamps[l].weight : (vfloat){ 0 };
@@ -45,7 +45,7 @@ void direct_sensor_prepare(direct_sensor *w, const vsurface *at, vmask active)
     w->at       = *at;
     w->prepared = active;
     weigh_sampled(w, at, active);
-    for (int l = 0; l < w->s->light_count; l++) {
+    for (int l = 0; l < scene_lamp_count(w->s); l++) {
         vfloat share = w->lamps[l].weight / w->sampled[direct_layer(w, l)];
         for (int bits = vbits(w->lamps[l].weight > 0.0f); bits; bits &= bits - 1) {
             int i = __builtin_ctz((unsigned)bits), n = w->listed_count[i]++;
@@ -126,7 +126,7 @@ void direct_sensor_draw(direct_sensor *w, int i, const uint32_t *index, const ui
         }
         direct_trace(w, RAYS_COHERENT);
         for (int k = 0; k < w->batched; k++)
-            w->e[k] = direct_arrives(w, k, w->e[k]);
+            w->e[k] = (float)w->s->study->maintenance * direct_arrives(w, k, w->e[k]);
         for (int j = from; j < to; j++) {
             int k = (j - from) / LANES, at = (j - from) % LANES;
             e[j]    = lane(w->e[k], at);

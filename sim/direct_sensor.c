@@ -92,7 +92,7 @@ void direct_weigh(direct_sensor *w, const vsurface *at, vmask active)
 {
     for (int layer = 0; layer < w->layers; layer++)
         w->total[layer] = w->sure[layer] = w->count[layer] = (vfloat){ 0 };
-    for (int l = 0; l < w->s->light_count; l++) {
+    for (int l = 0; l < scene_lamp_count(w->s); l++) {
         candidate *c    = &w->lamps[l];
         int layer       = direct_layer(w, l);
         *c              = weigh(w, l, at, active);
@@ -130,6 +130,9 @@ static void add_one(sensor_sum *sum, vfloat *lost, vfloat e, vfloat bound)
 void direct_add(direct_sensor *w, sensor_sum *sums, int l, vfloat e, vfloat bound)
 {
     const scene_light *info = &w->s->light_info[l];
+    float left              = (float)scene_maintenance(w->s, l);
+    e                       = left * e;
+    bound                   = left * bound;
     add_one(&sums[0], &w->lost[0], info->dimming * e, info->dimming * bound);
     if (w->s->layered)
         add_one(&sums[1 + info->group], &w->lost[1 + info->group], e, bound);
@@ -168,7 +171,7 @@ vmask direct_sensor_sum(direct_sensor *w, const vsurface *at, vmask active, uint
     memset(sums, 0, sizeof *sums * (size_t)sum_count);
     memset(w->lost, 0, sizeof *w->lost * (size_t)sum_count);
     direct_weigh(w, at, active);
-    for (int l = 0; l < w->s->light_count; l++) {
+    for (int l = 0; l < scene_lamp_count(w->s); l++) {
         const candidate *c = &w->lamps[l];
         if (direct_is_clear(w, l) || light_has_extent(w->s->lights[l])) {
             vmask known = active & direct_is_known(w, l);

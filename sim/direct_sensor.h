@@ -1,4 +1,5 @@
-/* sim/direct_sensor.h -- light straight from all lamps at the sensors of a grid, as luminances.
+/* sim/direct_sensor.h -- light straight from all lamps but suns at the sensors of a grid, as
+ * luminances, maintenance applied.
  *
  * What needs no samples is summed here for good: over lamps without extent, one shadow ray each,
  * and over all lamps where nothing can stand between, by their closed forms or, where their bound

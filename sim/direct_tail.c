@@ -65,7 +65,7 @@ static void ask_lamp(direct_sensor *w, const vsurface *at, int l, vmask asked, s
 static float weakest_of(const direct_sensor *w, int layer, int i, double left)
 {
     double sums[BUCKETS] = { 0 };
-    for (int l = 0; l < w->s->light_count; l++) {
+    for (int l = 0; l < scene_lamp_count(w->s); l++) {
         float e = lane(w->lamps[l].e, i);
         if (!is_asked(w, l) || direct_layer(w, l) != layer || !(e > 0.0f))
             continue;
@@ -89,7 +89,7 @@ static void ask_strong(direct_sensor *w, const vsurface *at, vmask active, const
                        const vfloat *most, sensor_sum *sums)
 {
     double share = (double)tail_share * w->ask.accuracy;
-    bool few     = w->s->light_count <= ASKED_LAMPS;
+    bool few     = scene_lamp_count(w->s) <= ASKED_LAMPS;
     for (int layer = 0; layer < w->layers; layer++) {
         float weakest[LANES] = { 0 };
         for (int bits = few ? 0 : vbits(active); bits; bits &= bits - 1) {
@@ -100,7 +100,7 @@ static void ask_strong(direct_sensor *w, const vsurface *at, vmask active, const
         w->weakest[layer] = most ? vmin(found, most[layer]) : found;
         w->tail[layer]    = (vfloat){ 0 };
     }
-    for (int l = 0; l < w->s->light_count; l++) {
+    for (int l = 0; l < scene_lamp_count(w->s); l++) {
         if (!is_asked(w, l))
             continue;
         int layer      = direct_layer(w, l);
@@ -131,7 +131,7 @@ static void pick_tail(const direct_sensor *w, int layer, int i, uint32_t seed,
     double step = (double)lane(w->tail[layer], i) / TAIL_RAYS, sum = 0.0, place = 0.0;
     int32_t last = 0;
     int j        = -1;
-    for (int l = 0; l < w->s->light_count && j < TAIL_RAYS; l++) {
+    for (int l = 0; l < scene_lamp_count(w->s) && j < TAIL_RAYS; l++) {
         float e = lane(w->lamps[l].e, i);
         if (!is_asked(w, l) || direct_layer(w, l) != layer || !(e > 0.0f) ||
             e >= lane(w->weakest[layer], i))

@@ -67,7 +67,7 @@ static void add_materials(const scene *s, bool back, effects *all)
 
 effects effects_of_grids(const scene *s, bool direct_only, bool outside)
 {
-    bool lit      = s->light_count > 0 || s->glows;
+    bool lit      = scene_is_lit(s);
     bool back     = s->reflects && lit && !direct_only;
     effects all   = { 0 };
     bool *on      = all.on;

@@ -4,198 +4,22 @@
 #include "core/color.h"
 #include "core/parallel.h"
 #include "core/sampler.h"
-#include "sim/accuracy.h"
-#include "sim/direct_sensor.h"
-#include "sim/path.h"
+#include "sim/grid_parts.h"
 #include "sim/probes.h"
 
 #include <float.h>
-#include <stdatomic.h>
-#include <string.h>
-
-/* Of accuracy_run(): all that is sampled, as dimmed; and in a layered scene the same undimmed, and
- * of each layer; what of it, as dimmed, is direct; what sees a reflecting surface; what of each
- * layer is direct. */
-enum { SAMPLED, FULL, LAYERS };
-
-typedef struct thread_scratch {
-    direct_sensor *direct;
-    path_tracer *paths;
-    path_bundle bundle;
-    sensor_sum *sums;
-    float lamp_e[BUNDLE]; /* W/m^2 of each sample, and which lamp's it is */
-    int32_t lamp[BUNDLE];
-} thread_scratch;
-
-typedef struct grid_run_state {
-    const scene *s;
-    const run_options *o;
-    grid_result *r;
-    thread_scratch *threads;
-    int layers;            /* 0 unless the scene is layered */
-    double *known, *bound; /* lx, initial: of everything, then of each layer, sensor by sensor */
-    path_options paths;
-    atomic_bool lamps_left; /* some lamps take samples */
-    uint32_t seed;          /* of this grid */
-} grid_run_state;
-
-static int judged_count(const grid_run_state *g) { return g->layers ? LAYERS + g->layers : 1; }
-static int straight_channel(const grid_run_state *g) { return judged_count(g); }
-static int met_channel(const grid_run_state *g) { return straight_channel(g) + 1; }
-static int layer_straight_channel(const grid_run_state *g, int layer)
-{
-    return met_channel(g) + 1 + layer;
-}
-static int channel_count(const grid_run_state *g) { return layer_straight_channel(g, g->layers); }
-
-/* How far a sensor may be off, and a surface that it lies on: a few roundings of the farthest
- * corner of the scene. */
-static float place_error(const scene *s, vec3 p)
-{
-    float most  = fmaxf(fabsf(p.x), fmaxf(fabsf(p.y), fabsf(p.z)));
-    dvec3 off   = d3_scale(d3_sub(s->high, s->low), 0.5);
-    double half = s->low.x <= s->high.x ? fmax(off.x, fmax(off.y, off.z)) : 0.0;
-    return 8.0f * 0x1p-24f * fmaxf(most, fmaxf((float)half, 0x1p-6f));
-}
-
-/* ---- light that needs no samples ------------------------------------------------------------- */
-
-/* A packet of sensors, of which those behind the last are asleep. */
-static vmask place_sensors(const grid_run_state *g, const int *which, int count, vsurface *at)
-{
-    float p[3][LANES], n[3][LANES], error[LANES];
-    for (int i = 0; i < LANES; i++) {
-        const grid_sensor *one = &g->r->sensors[which[i < count ? i : 0]];
-        vec3 place = scene_place(g->s, one->at), normal = d3_to_float(one->normal);
-        p[0][i] = place.x, p[1][i] = place.y, p[2][i] = place.z;
-        n[0][i] = normal.x, n[1][i] = normal.y, n[2][i] = normal.z;
-        error[i] = place_error(g->s, place);
-    }
-    *at = (vsurface){ .position = { vload(p[0]), vload(p[1]), vload(p[2]) },
-                      .normal   = { vload(n[0]), vload(n[1]), vload(n[2]) },
-                      .error    = vload(error) };
-    return vlane_index() < count;
-}
-
-enum { CHUNK = 64 }; /* sensors */
-
-static void sum_packet(grid_run_state *g, thread_scratch *w, int first)
-{
-    int which[LANES], n = g->r->sensor_count, count = n - first < LANES ? n - first : LANES;
-    for (int i = 0; i < LANES; i++)
-        which[i] = first + (i < count ? i : 0);
-    vsurface at;
-    vmask active  = place_sensors(g, which, count, &at);
-    vmask pending = direct_sensor_sum(w->direct, &at, active, (uint32_t)first, w->sums);
-    if (vany(pending))
-        atomic_store(&g->lamps_left, true);
-    for (int i = 0; i < count; i++) {
-        size_t k    = (size_t)(first + i);
-        g->known[k] = LUMENS_PER_WATT * (double)lane(w->sums[0].e, i);
-        g->bound[k] = LUMENS_PER_WATT * (double)lane(w->sums[0].bound, i);
-        for (int l = 0; l < g->layers; l++) {
-            size_t to = (size_t)(LAYERS + l) * (size_t)n + k, full = (size_t)FULL * (size_t)n + k;
-            g->known[to] = LUMENS_PER_WATT * (double)lane(w->sums[1 + l].e, i);
-            g->bound[to] = LUMENS_PER_WATT * (double)lane(w->sums[1 + l].bound, i);
-            g->known[full] += g->known[to];
-            g->bound[full] += g->bound[to];
-        }
-    }
-}
-
-static void sum_chunk(void *context, int item, int thread)
-{
-    grid_run_state *g = context;
-    int end           = (item + 1) * CHUNK;
-    for (int first = item * CHUNK; first < end && first < g->r->sensor_count; first += LANES)
-        sum_packet(g, &g->threads[thread], first);
-}
-
-/* ---- light that is sampled ------------------------------------------------------------------- */
-
-/* Lamps that take samples: those of the same sensor stand one after the other, and a packet of
- * sensors is looked at together. */
-static void sample_lamps(grid_run_state *g, thread_scratch *w, const sample_id *ids, int count)
-{
-    for (int from = 0, to; from < count; from = to) {
-        int which[LANES], begin[LANES + 1], sensors = 0;
-        for (to = from; to < count; to++) {
-            if (to > from && ids[to].item == ids[to - 1].item)
-                continue;
-            if (sensors == LANES)
-                break;
-            begin[sensors]   = to;
-            which[sensors++] = (int)ids[to].item;
-        }
-        begin[sensors] = to;
-        vsurface at;
-        vmask active = place_sensors(g, which, sensors, &at);
-        direct_sensor_prepare(w->direct, &at, active);
-        for (int i = 0; i < sensors; i++) {
-            int at_i = begin[i];
-            direct_sensor_draw(w->direct, i, w->bundle.index + at_i, w->bundle.seed + at_i,
-                               begin[i + 1] - at_i, w->lamp_e + at_i, w->lamp + at_i);
-        }
-    }
-}
-
-static float lux_of(const path_sums *sums, int i)
-{
-    vec3 e = { (*sums)[0][i], (*sums)[1][i], (*sums)[2][i] };
-    return (float)LUMENS_PER_WATT * rgb_luminance(e);
-}
-
-static void take_sample(const grid_run_state *g, const thread_scratch *w, int i, float *values)
-{
-    const path_bundle *b = &w->bundle;
-    int lamp             = w->lamp[i];
-    float lux            = lamp < 0 ? 0.0f : (float)LUMENS_PER_WATT * w->lamp_e[i];
-    float dimming        = lamp < 0 ? 1.0f : g->s->light_info[lamp].dimming;
-    float straight       = dimming * lux + lux_of(&b->direct, i);
-
-    values[SAMPLED * BUNDLE + i]             = straight + lux_of(&b->indirect, i);
-    values[straight_channel(g) * BUNDLE + i] = straight;
-    values[met_channel(g) * BUNDLE + i]      = b->met[i];
-    if (g->layers)
-        values[FULL * BUNDLE + i] = 0.0f;
-    for (int l = 0; l < g->layers; l++) {
-        float own = lamp >= 0 && g->s->light_info[lamp].group == l ? lux : 0.0f;
-        float all = own + lux_of(&b->layers[l], i);
-
-        values[(LAYERS + l) * BUNDLE + i] = all;
-        values[FULL * BUNDLE + i] += all;
-        values[layer_straight_channel(g, l) * BUNDLE + i] =
-            own + lux_of(&b->layers[g->layers + l], i);
-    }
-}
-
-static void sample_sensors(void *context, int thread, const sample_id *ids, int count,
-                           float *values)
-{
-    grid_run_state *g = context;
-    thread_scratch *w = &g->threads[thread];
-    path_bundle *b    = &w->bundle;
-    b->count          = count;
-    for (int i = 0; i < count; i++) {
-        const grid_sensor *one = &g->r->sensors[ids[i].item];
-        uint32_t cell          = (uint32_t)g->r->cell[ids[i].item];
-        vec3 place = scene_place(g->s, one->at), normal = d3_to_float(one->normal);
-        b->x[i] = place.x, b->y[i] = place.y, b->z[i] = place.z;
-        b->nx[i] = normal.x, b->ny[i] = normal.y, b->nz[i] = normal.z;
-        b->error[i] = place_error(g->s, place);
-        b->index[i] = ids[i].index;
-        b->seed[i]  = hash_combine_u32(hash_combine_u32(g->seed, cell), ids[i].scramble);
-    }
-    if (atomic_load(&g->lamps_left))
-        sample_lamps(g, w, ids, count);
-    else
-        memset(w->lamp, -1, sizeof w->lamp);
-    path_trace(w->paths, b, &g->paths);
-    for (int i = 0; i < count; i++)
-        take_sample(g, w, i, values);
-}
 
 /* ---- a run ----------------------------------------------------------------------------------- */
+
+static bool make_bundle(const grid_run_state *g, arena *a, path_bundle *b, lux_error *err)
+{
+    const grid_channels *c = &g->channels;
+    if (g->layers && !(b->layers = arena_array(a, path_sums, 2 * (size_t)g->layers, err)))
+        return false;
+    if (c->outside >= 0 && !(b->outside = arena_new(a, path_sums, err)))
+        return false;
+    return c->electric < 0 || (b->daylight = arena_new(a, path_sums, err));
+}
 
 static bool make_threads(grid_run_state *g, arena *a, lux_error *err)
 {
@@ -203,18 +27,41 @@ static bool make_threads(grid_run_state *g, arena *a, lux_error *err)
     for (int k = 0; k < g->r->sensor_count && in_room; k++)
         in_room = scene_is_in_room(g->s, g->r->sensors[k].at);
     sensor_ask ask = { g->r->grid->quantity, g->r->asked, in_room, g->seed };
+    size_t layers  = (size_t)g->layers + 1;
     g->threads     = arena_array(a, thread_scratch, (size_t)g->o->threads, err);
     for (int t = 0; g->threads && t < g->o->threads; t++) {
-        thread_scratch *w = &g->threads[t];
-        w->direct         = direct_sensor_new(a, g->s, &ask, err);
-        w->paths          = w->direct ? path_tracer_new(a, g->s, err) : NULL;
-        w->sums = w->paths ? arena_array(a, sensor_sum, (size_t)(1 + g->layers), err) : NULL;
-        if (g->layers)
-            w->bundle.layers = arena_array(a, path_sums, 2 * (size_t)g->layers, err);
-        if (!w->sums || (g->layers && !w->bundle.layers))
+        thread_scratch *w  = &g->threads[t];
+        w->direct          = direct_sensor_new(a, g->s, &ask, err);
+        w->suns            = w->direct ? sun_seen_new(a, g->s, ask.quantity, err) : NULL;
+        w->paths           = w->suns ? path_tracer_new(a, g->s, err) : NULL;
+        w->sums            = w->paths ? arena_array(a, sensor_sum, layers, err) : NULL;
+        w->of_layer        = w->sums ? arena_array(a, float, layers, err) : NULL;
+        w->direct_of_layer = w->of_layer ? arena_array(a, float, layers, err) : NULL;
+        if (!w->direct_of_layer || !make_bundle(g, a, &w->bundle, err))
             return false;
     }
     return g->threads != NULL;
+}
+
+/* Where the channels stand. */
+static grid_channels lay_out(const grid_run_state *g)
+{
+    bool both = g->s->moment_count > 0 && !g->moments &&
+                (scene_lamp_count(g->s) > 0 || g->s->glows) && g->s->study->maintenance != 1.0;
+    grid_channels c  = { .judged   = g->moments  ? g->moments
+                                     : g->layers ? LAYERS + g->layers
+                                                 : 1,
+                         .outside  = -1,
+                         .electric = -1 };
+    c.straight       = c.judged;
+    c.straight_count = g->moments ? g->moments : 1 + g->layers;
+    c.met            = c.straight + c.straight_count;
+    c.count          = c.met + 1;
+    if (g->o->outside)
+        c.outside = c.count++;
+    if (both)
+        c.electric = c.count++;
+    return c;
 }
 
 static void summarise(grid_result *r)
@@ -239,12 +86,27 @@ static void summarise(grid_result *r)
         over += ratio > r->asked;
     }
     bool sampled = !isnan(r->reached);
-    if (sampled && !r->layer_count)
+    if (sampled && (r->moment_count || !r->layer_count))
         return;
     r->missed  = over; /* as the bounds say; or of layers, which alone were held to the accuracy */
     r->reached = fmax(r->reached, r->worst_half_width);
     if (!sampled && over)
         r->end = RUN_EXHAUSTED;
+}
+
+grid_summary grid_initial(const grid_result *r, double maintenance)
+{
+    double sum     = 0.0;
+    grid_summary g = { .minimum = HUGE_VAL };
+    for (int k = 0; k < r->sensor_count; k++) {
+        double electric = r->electric ? r->electric[k] : r->illuminance[k];
+        double initial  = r->illuminance[k] - electric + electric / maintenance;
+        sum += initial;
+        g.minimum = fmin(g.minimum, initial);
+        g.maximum = fmax(g.maximum, initial);
+    }
+    g.average = sum / r->sensor_count;
+    return g;
 }
 
 /* At a lamp itself illuminance has no bound. */
@@ -262,34 +124,83 @@ static bool all_finite(const scene *s, const grid_result *r, lux_error *err)
     return true;
 }
 
+/* A channel's mean at sensor k; nothing was sampled: 0. */
+static double mean_of(const grid_run_state *g, const accuracy_result *got, int channel, size_t k)
+{
+    return got ? got->mean[(size_t)channel * (size_t)g->r->sensor_count + k] : 0.0;
+}
+
+static double half_width_of(const grid_run_state *g, const accuracy_result *got, int channel,
+                            size_t k)
+{
+    size_t at = (size_t)channel * (size_t)g->r->sensor_count + k;
+    return got ? got->half_width[at] : g->bound[at];
+}
+
+static double known_of(const grid_run_state *g, int channel, size_t k)
+{
+    return g->known[(size_t)channel * (size_t)g->r->sensor_count + k];
+}
+
+static void take_moments(const grid_run_state *g, const accuracy_result *got, size_t k)
+{
+    const scene *s = g->s;
+    grid_result *r = g->r;
+    for (int h = 0; h < g->moments; h++) {
+        grid_moment *to    = &r->moments[h];
+        double known       = known_of(g, h, k);
+        double all         = known + mean_of(g, got, h, k);
+        to->illuminance[k] = fmax(all, 0.0);
+        to->direct[k]      = known + mean_of(g, got, g->channels.straight + h, k);
+        to->half_width[k]  = half_width_of(g, got, h, k);
+    }
+    for (int i = 0; i < s->sun_count; i++) {
+        int h                = s->light_info[scene_lamp_count(s) + i].group - 1;
+        r->moments[h].sun[k] = g->sun_share[(size_t)i * (size_t)r->sensor_count + k];
+    }
+    r->illuminance[k] = r->moments[0].illuminance[k];
+    r->direct[k]      = r->moments[0].direct[k];
+    r->half_width[k]  = r->moments[0].half_width[k];
+}
+
+static void take_layers(const grid_run_state *g, const accuracy_result *got, size_t k)
+{
+    for (int l = 0; l < g->layers; l++) {
+        const grid_layer *to = &g->r->layers[l];
+        double known         = known_of(g, LAYERS + l, k);
+        to->illuminance[k]   = known + mean_of(g, got, LAYERS + l, k);
+        to->direct[k]        = known + mean_of(g, got, g->channels.straight + 1 + l, k);
+        to->half_width[k]    = half_width_of(g, got, LAYERS + l, k);
+    }
+}
+
 static void take_results(const grid_run_state *g, const accuracy_result *got, grid_result *r)
 {
-    double maintenance = g->s->study->maintenance;
-    size_t n           = (size_t)r->sensor_count;
-    for (size_t k = 0; k < n; k++) {
-        double straight   = got ? got->mean[(size_t)straight_channel(g) * n + k] : 0.0;
-        double all        = got ? got->mean[SAMPLED * n + k] : 0.0;
-        double half       = got ? got->half_width[k] : g->bound[k];
-        r->direct[k]      = maintenance * (g->known[k] + straight);
-        r->indirect[k]    = maintenance * fmax(all - straight, 0.0);
-        r->illuminance[k] = r->direct[k] + r->indirect[k];
-        r->half_width[k]  = maintenance * half;
-        r->in_doubt += got && all == 0.0 && got->mean[(size_t)met_channel(g) * n + k] > 0.0;
-        for (int l = 0; l < g->layers; l++) {
-            size_t at            = (size_t)(LAYERS + l) * n + k;
-            size_t straight_at   = (size_t)layer_straight_channel(g, l) * n + k;
-            const grid_layer *to = &r->layers[l];
-            to->illuminance[k]   = maintenance * (g->known[at] + (got ? got->mean[at] : 0.0));
-            to->direct[k]     = maintenance * (g->known[at] + (got ? got->mean[straight_at] : 0.0));
-            to->half_width[k] = maintenance * (got ? got->half_width[at] : g->bound[at]);
+    const grid_channels *c = &g->channels;
+    for (size_t k = 0; k < (size_t)r->sensor_count; k++) {
+        double all = mean_of(g, got, SAMPLED, k);
+        r->in_doubt += got && all == 0.0 && mean_of(g, got, c->met, k) > 0.0;
+        if (g->moments) {
+            take_moments(g, got, k);
+        } else {
+            r->direct[k]      = known_of(g, SAMPLED, k) + mean_of(g, got, c->straight, k);
+            r->illuminance[k] = known_of(g, SAMPLED, k) + all;
+            r->half_width[k]  = half_width_of(g, got, SAMPLED, k);
+            take_layers(g, got, k);
         }
+        r->indirect[k]    = fmax(r->illuminance[k] - r->direct[k], 0.0);
+        r->illuminance[k] = r->direct[k] + r->indirect[k];
+        if (r->outside)
+            r->outside[k] = mean_of(g, got, c->outside, k);
+        if (r->electric)
+            r->electric[k] += mean_of(g, got, c->electric, k);
     }
 }
 
 /* Lamps may all be out: then darkness is no doubt. */
 static bool anything_shines(const scene *s)
 {
-    bool shines = s->glows && s->glow_dimming > 0.0f;
+    bool shines = s->sky_count > 0 || (s->glows && s->glow_dimming > 0.0f);
     for (int l = 0; l < s->light_count && !shines; l++)
         shines = s->light_info[l].lumens > 0.0;
     return shines;
@@ -298,8 +209,9 @@ static bool anything_shines(const scene *s)
 static bool sample_rest(arena *a, grid_run_state *g, grid_result *r, lux_error *err)
 {
     accuracy_desc d = { .items         = r->sensor_count,
-                        .channels      = channel_count(g),
-                        .judged        = judged_count(g),
+                        .channels      = g->channels.count,
+                        .judged        = g->channels.judged,
+                        .apart         = g->moments > 0,
                         .exact         = g->known,
                         .bound         = g->bound,
                         .accuracy      = r->asked,
@@ -310,7 +222,7 @@ static bool sample_rest(arena *a, grid_run_state *g, grid_result *r, lux_error *
                         .threads       = g->o->threads,
                         .deadline      = g->o->deadline,
                         .progress      = g->o->progress,
-                        .sample        = sample_sensors,
+                        .sample        = grid_sample,
                         .context       = g };
     accuracy_result got;
     if (!accuracy_run(a, &d, &got, err))
@@ -327,16 +239,29 @@ static bool sample_rest(arena *a, grid_run_state *g, grid_result *r, lux_error *
     return true;
 }
 
-static bool make_results(arena *a, const grid_run_state *g, grid_result *out, lux_error *err)
+static bool make_moments(arena *a, const grid_run_state *g, grid_result *out, lux_error *err)
+{
+    size_t n          = (size_t)out->sensor_count;
+    out->moment_count = g->moments;
+    out->moments      = arena_array(a, grid_moment, (size_t)g->moments + 1, err);
+    for (int h = 0; out->moments && h < g->moments; h++) {
+        grid_moment *to = &out->moments[h];
+        to->illuminance = arena_array(a, double, n, err);
+        to->direct      = to->illuminance ? arena_array(a, double, n, err) : NULL;
+        to->half_width  = to->direct ? arena_array(a, double, n, err) : NULL;
+        to->sun         = to->half_width ? arena_array(a, double, n, err) : NULL;
+        if (!to->sun)
+            return false;
+    }
+    return out->moments != NULL;
+}
+
+static bool make_layers(arena *a, const grid_run_state *g, grid_result *out, lux_error *err)
 {
     size_t n         = (size_t)out->sensor_count;
-    double **all[]   = { &out->illuminance, &out->direct, &out->indirect, &out->half_width };
-    out->layer_count = g->layers;
+    out->layer_count = g->moments ? 0 : g->layers;
     out->layers      = arena_array(a, grid_layer, (size_t)g->layers + 1, err);
-    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
-        if (!out->layers || !(*all[i] = arena_array(a, double, n, err)))
-            return false;
-    for (int l = 0; l < g->layers; l++) {
+    for (int l = 0; out->layers && l < out->layer_count; l++) {
         grid_layer *to  = &out->layers[l];
         to->illuminance = arena_array(a, double, n, err);
         to->direct      = to->illuminance ? arena_array(a, double, n, err) : NULL;
@@ -344,25 +269,51 @@ static bool make_results(arena *a, const grid_run_state *g, grid_result *out, lu
         if (!to->half_width)
             return false;
     }
-    return true;
+    return out->layers != NULL;
+}
+
+static bool make_results(arena *a, const grid_run_state *g, grid_result *out, lux_error *err)
+{
+    double **all[] = { &out->illuminance,
+                       &out->direct,
+                       &out->indirect,
+                       &out->half_width,
+                       g->channels.outside >= 0 ? &out->outside : NULL,
+                       g->channels.electric >= 0 ? &out->electric : NULL };
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        if (all[i] && !(*all[i] = arena_array(a, double, (size_t)out->sensor_count, err)))
+            return false;
+    return make_layers(a, g, out, err) && make_moments(a, g, out, err);
 }
 
 static bool run(arena *a, grid_run_state *g, grid_result *out, lux_error *err)
 {
     const scene *s = g->s;
-    int chunks     = (out->sensor_count + CHUNK - 1) / CHUNK;
+    int chunks     = (out->sensor_count + GRID_CHUNK - 1) / GRID_CHUNK;
     progress_begin(g->o->progress, out->grid->name);
-    parallel_for(chunks, g->o->threads, sum_chunk, g, g->o->progress ? g->o->progress->stop : NULL);
+    parallel_for(chunks, g->o->threads, grid_sum_chunk, g,
+                 g->o->progress ? g->o->progress->stop : NULL);
     if (progress_stopped(g->o->progress))
         return failed(err, ERR_INTERRUPTED, "interrupted before grid %s had its first results",
                       out->grid->name);
-    bool lit      = s->light_count > 0 || s->glows;
+    bool lit      = scene_is_lit(s);
     bool reflects = s->reflects && lit && !g->o->direct_only;
-    if (s->glows || reflects || atomic_load(&g->lamps_left))
+    if (s->glows || s->sky_count > 0 || g->disks || reflects || atomic_load(&g->lamps_left))
         return sample_rest(a, g, out, err);
     take_results(g, NULL, out);
     out->reached = (double)NAN; /* as the bounds say: see summarise() */
     return true;
+}
+
+static bool make_known(arena *a, grid_run_state *g, lux_error *err)
+{
+    size_t n = (size_t)g->r->sensor_count, judged = (size_t)g->channels.judged;
+    size_t suns  = (size_t)g->s->sun_count + 1;
+    g->known     = arena_array(a, double, n *judged, err);
+    g->bound     = g->known ? arena_array(a, double, n *judged, err) : NULL;
+    g->sun_known = g->bound ? arena_array(a, double, n *suns, err) : NULL;
+    g->sun_share = g->sun_known ? arena_array(a, double, n *suns, err) : NULL;
+    return g->sun_share != NULL;
 }
 
 bool grid_run(arena *a, const scene *s, const study_grid *grid, const run_options *o,
@@ -371,28 +322,29 @@ bool grid_run(arena *a, const scene *s, const study_grid *grid, const run_option
     double begun     = clock_seconds();
     arena scratch    = { 0 };
     uint32_t seed    = hash_text_u32(hash_u32(o->seed), grid->name);
-    grid_run_state g = { .s      = s,
-                         .o      = o,
-                         .r      = out,
-                         .layers = s->layered ? s->group_count : 0,
-                         .paths  = { .quantity = grid->quantity, .bounce = !o->direct_only },
-                         .seed   = seed };
+    grid_run_state g = { .s       = s,
+                         .o       = o,
+                         .r       = out,
+                         .layers  = s->layered ? s->group_count : 0,
+                         .moments = s->by_moment ? s->moment_count : 0,
+                         .paths   = { .quantity = grid->quantity, .bounce = !o->direct_only },
+                         .seed    = seed };
+    g.channels       = lay_out(&g);
+    for (int i = 0; i < s->sun_count; i++)
+        g.disks |= light_has_extent(s->lights[scene_lamp_count(s) + i]);
 
     bool good           = grid_sensors(a, s, grid, out, err);
-    size_t n            = (size_t)out->sensor_count * (size_t)judged_count(&g);
     out->asked          = !isnan(o->accuracy)          ? o->accuracy
                           : !isnan(s->study->accuracy) ? s->study->accuracy
                                                        : GRID_DEFAULT_PERCENT / 100.0;
     out->left_to_chance = scene_left_to_chance(s, o->direct_only);
-    good                = good && make_results(a, &g, out, err);
-    g.known             = good ? arena_array(&scratch, double, n, err) : NULL;
-    g.bound             = g.known ? arena_array(&scratch, double, n, err) : NULL;
-    good                = g.bound && make_threads(&g, &scratch, err) && run(a, &g, out, err) &&
-           all_finite(s, out, err);
+    good                = good && make_results(a, &g, out, err) && make_known(&scratch, &g, err) &&
+           make_threads(&g, &scratch, err) && run(a, &g, out, err) && all_finite(s, out, err);
     if (good) {
         summarise(out);
         for (int t = 0; t < o->threads; t++)
-            out->rays += direct_sensor_rays(g.threads[t].direct) + path_rays(g.threads[t].paths);
+            out->rays += direct_sensor_rays(g.threads[t].direct) + sun_rays(g.threads[t].suns) +
+                         path_rays(g.threads[t].paths);
         out->seconds = clock_seconds() - begun;
     }
     arena_clear(&scratch);

@@ -75,6 +75,13 @@ bool grid_sensors(arena *a, const scene *s, const study_grid *g, grid_result *ou
 bool grid_run(arena *a, const scene *s, const study_grid *g, const run_options *o, grid_result *out,
               lux_error *err);
 
+/* Average, minimum and maximum with `maintenance` taken back: of electric light alone where there
+ * is daylight, too. */
+typedef struct grid_summary {
+    double average, minimum, maximum; /* lx */
+} grid_summary;
+grid_summary grid_initial(const grid_result *r, double maintenance);
+
 /* "illuminance", "cylindrical illuminance", ... */
 const char *grid_quantity_name(study_quantity q);
 

@@ -17,7 +17,10 @@ static const float surest_survival = 0.995f;
 static const float wide_spread = 0.03f;
 
 /* Whether the paths' own rays find light. */
-static bool finds_light(const scene *s) { return s->glows || s->narrow || s->hollow; }
+static bool finds_light(const scene *s)
+{
+    return s->glows || s->narrow || s->hollow || s->sky_count > 0 || s->sun_count > 0;
+}
 
 path_tracer *path_tracer_new(arena *a, const scene *s, lux_error *err)
 {
@@ -34,7 +37,7 @@ path_tracer *path_tracer_new(arena *a, const scene *s, lux_error *err)
         return t;
     t->list  = arena_array(a, int32_t, (size_t)t->shown.count + 1, err);
     t->boxes = lamp_boxes_new(a, s, &t->shown, err);
-    return t->list && t->boxes ? t : NULL;
+    return t->list && t->boxes && path_patches_new(t, a, err) ? t : NULL;
 }
 
 int64_t path_rays(const path_tracer *t) { return t->ray_count + direct_rays(t->direct); }
@@ -54,18 +57,21 @@ static int keep(path_tracer *t, int k, vmask goes, int kept)
 
 /* ---- a step of all living paths -------------------------------------------------------------- */
 
-/* Random numbers of a place. Lights have numbers of their own only where they need them. */
-static void draw_numbers(path_tracer *t, uint32_t depth)
+vsample4 path_numbers(const path_tracer *t, int k, uint32_t purpose)
+{
+    vint id     = vload_int(t->id + k * LANES);
+    vuint index = vunsigned(vgather_int((const int32_t *)t->b->index, id));
+    vuint seed  = vunsigned(vgather_int((const int32_t *)t->b->seed, id));
+    return vsobol4(index, vhash_combine(seed, vsplat_uint(purpose ^ t->depth)));
+}
+
+/* Of a place. Lights have numbers of their own only where they need them. */
+static void draw_numbers(path_tracer *t)
 {
     bool own = t->s->extended || t->s->emitter_count > 0 || t->s->narrow;
     for (int k = 0; k < packets_of(t); k++) {
-        vint id            = vload_int(t->id + k * LANES);
-        vuint index        = vunsigned(vgather_int((const int32_t *)t->b->index, id));
-        vuint seed         = vunsigned(vgather_int((const int32_t *)t->b->seed, id));
-        vuint of_bounce    = vhash_combine(seed, vunsigned(vsplat_int((int)depth)));
-        vuint of_light     = vhash_combine(seed, vunsigned(vsplat_int(~(int)depth)));
-        t->sample[k]       = vsobol4(index, of_bounce);
-        t->light_sample[k] = own ? vsobol4(index, of_light) : t->sample[k];
+        t->sample[k]       = path_numbers(t, k, 0);
+        t->light_sample[k] = own ? path_numbers(t, k, (uint32_t)OF_LIGHT) : t->sample[k];
     }
 }
 
@@ -122,13 +128,14 @@ static void note_scattered(path_tracer *t, int k, const vscatter *next)
 {
     vint before = vload_int(t->state + k * LANES);
     vint around = vselect_int(t->around[k], vsplat_int(AROUND), vsplat_int(0));
-    vstore_int(t->state + k * LANES,
-               vselect_int(next->straight, before | PASSED, around | SCATTERED));
+    vint wide   = vselect_int(next->pdf < INFINITY, vsplat_int(WIDE), vsplat_int(0));
+    vint after  = (before & (WIDE | OUTDOORS)) | wide | around | SCATTERED;
+    vstore_int(t->state + k * LANES, vselect_int(next->straight, before | PASSED, after));
     if (t->fields < FIELDS)
         return;
-    vmask wide    = ~next->straight & (next->pdf < INFINITY);
+    vmask drawn   = ~next->straight & (next->pdf < INFINITY);
     vfloat spread = load(t, SPREAD, k);
-    store(t, SPREAD, k, vselect(wide, vmax(spread, vsplat(wide_spread)), spread));
+    store(t, SPREAD, k, vselect(drawn, vmax(spread, vsplat(wide_spread)), spread));
 }
 
 /* Draws where a path goes on, or that it ends. */
@@ -184,6 +191,16 @@ static int keep_hits(path_tracer *t, int k, vmask met, int kept)
     return kept;
 }
 
+/* Of paths that have met no surface before but such as let them through. */
+static void note_outdoors(path_tracer *t, int k, vint does)
+{
+    vint state  = vload_int(t->state + k * LANES);
+    vmask first = (state & SCATTERED) == 0;
+    vint now    = state & ~OUTDOORS;
+    now         = vselect_int((does & DOES_EXTERIOR) != 0, now | OUTDOORS, now);
+    vstore_int(t->state + k * LANES, vselect_int(first, now, state));
+}
+
 /* What packet k has met, and what its materials do. */
 static void arrive(path_tracer *t, int k)
 {
@@ -200,10 +217,14 @@ static void arrive(path_tracer *t, int k)
     }
     scene_shade(s, &hit, &way, width, active, &t->at[k], &t->shading[k]);
     t->active[k] = t->asks[k] = active;
+    if (!s->narrow && !s->hollow && !s->exteriors)
+        return;
+    vint does  = vgather_int(s->material_does, vkeep_int(active, t->at[k].material));
+    t->does[k] = does;
+    if (s->exteriors)
+        note_outdoors(t, k, does);
     if (!s->narrow)
         return;
-    vint does    = vgather_int(s->material_does, vkeep_int(active, t->at[k].material));
-    t->does[k]   = does;
     t->asks[k]   = active & ((does & DOES_ASK) != 0);
     t->around[k] = active & ((does & DOES_AROUND) != 0);
 }
@@ -220,6 +241,8 @@ static void go_on(path_tracer *t)
     world_first_hit(t->s->world, t->rays, t->active, n, RAYS_INCOHERENT, t->hits);
     if (t->fields > PLAIN_FIELDS && t->shown.count > 0)
         path_add_lamps_met(t);
+    if (t->s->sky_count > 0)
+        path_add_sky(t);
     for (int k = 0; k < n; k++) {
         vmask met = t->active[k] & (t->hits[k].instance >= 0);
         keep_hits(t, k, met, kept);
@@ -271,11 +294,15 @@ static void begin(path_tracer *t, path_bundle *b, const path_options *o)
     memset(b->direct, 0, sizeof b->direct);
     memset(b->indirect, 0, sizeof b->indirect);
     memset(b->met, 0, sizeof b->met);
+    if (b->outside)
+        memset(b->outside, 0, sizeof *b->outside);
+    if (b->daylight)
+        memset(b->daylight, 0, sizeof *b->daylight);
     if (b->layers)
         memset(b->layers, 0, 2 * (size_t)t->s->group_count * sizeof *b->layers);
     for (int i = 0; i < PATHS; i++) {
         t->id[i]    = i < b->count ? i : 0; /* those behind the last are read, and dropped */
-        t->state[i] = 0;
+        t->state[i] = o->eye ? 0 : WIDE;
         for (int c = 0; c < 3; c++)
             t->carried[WORTH + c][i] = 1.0f;
         t->carried[WIDTH][i]  = 0.0f;
@@ -283,31 +310,43 @@ static void begin(path_tracer *t, path_bundle *b, const path_options *o)
     }
 }
 
+static void ask(path_tracer *t, bool beginning)
+{
+    path_ask_lights(t, beginning);
+    if (t->s->sky_count > 0)
+        path_ask_sky(t, beginning);
+    if (t->s->sun_count > 0 && (!beginning || t->o->lamps))
+        path_ask_suns(t, beginning);
+    if (t->patches && t->o->bounce)
+        path_ask_patches(t, beginning);
+}
+
 void path_trace(path_tracer *t, path_bundle *b, const path_options *o)
 {
     const scene *s = t->s;
-    uint32_t depth = 0;
+    t->depth       = 0;
     begin(t, b, o);
     if (o->eye) {
         begin_eye(t);
     } else {
         begin_sensors(t);
-        draw_numbers(t, depth++);
-        path_ask_lights(t, true);
-        if (!o->bounce && !s->glows)
+        draw_numbers(t);
+        ask(t, true);
+        t->depth++;
+        if (!o->bounce && !s->glows && s->sky_count == 0)
             return;
         draw_first_directions(t);
     }
-    for (bool first = true; t->alive > 0; first = false, depth++) {
+    for (bool first = true; t->alive > 0; first = false, t->depth++) {
         go_on(t);
         path_add_glow(t);
         if (first)
             path_note_met(t);
         if (!o->bounce && !s->hollow)
             return;
-        draw_numbers(t, depth);
+        draw_numbers(t);
         if (o->bounce)
-            path_ask_lights(t, false);
+            ask(t, false);
         draw_directions(t);
     }
 }

@@ -41,13 +41,14 @@ typedef struct path_bundle {
                                               the eye the direction */
     uint32_t index[PATHS], seed[PATHS];    /* which sample of which scrambled set */
 
-    path_sums direct;   /* straight from lamps, if asked for, and from glowing surfaces, thin glass
-                           between or not */
-    path_sums indirect; /* after at least one reflection */
-    path_sums *layers;  /* NULL; or of each group, undimmed: both; behind them: direct alone */
-    path_sums *outside; /* NULL; or what of `indirect` came last from the ground or from a surface
-                           that is outside */
-    float met[PATHS];   /* 1 if the first ray met a surface that gives light on, else 0 */
+    path_sums direct;    /* straight from lamps, if asked for, and from glowing surfaces, thin glass
+                            between or not */
+    path_sums indirect;  /* after at least one reflection */
+    path_sums *layers;   /* NULL; or of each group, undimmed: both; behind them: direct alone */
+    path_sums *outside;  /* NULL; or what of `indirect` came last from the ground or from a surface
+                            that is outside */
+    path_sums *daylight; /* NULL; or what is of suns and skies */
+    float met[PATHS];    /* 1 if the first ray met a surface that gives light on, else 0 */
 } path_bundle;
 
 typedef struct path_options {

@@ -7,80 +7,101 @@
 
 enum { ASKED_LAMPS = 16 }; /* that are all asked where a path begins, if one would not do */
 
-/* Adds what each path of packet k found, e, of light number `which` (-1: of none); it came straight
- * to those that `straight` says. */
-static void add(path_tracer *t, vmask straight, int k, vrgb e, vint which)
+/* The sums of one lane: number id, what it found, whether that came straight, and whether by way of
+ * what is outside. */
+static void add_lane(path_tracer *t, int id, const float of[3], bool straight, bool outside,
+                     const path_layer *l)
 {
-    const scene *s = t->s;
+    path_bundle *b   = t->b;
+    int groups       = t->s->group_count;
+    bool is_straight = straight && !l->ground;
+    path_sums *sums  = is_straight ? &b->direct : &b->indirect;
+    for (int c = 0; c < 3; c++) {
+        (*sums)[c][id] += l->dimming * of[c];
+        if (b->outside && !is_straight && (outside || straight))
+            (*b->outside)[c][id] += l->dimming * of[c];
+        if (b->daylight && l->day)
+            (*b->daylight)[c][id] += of[c];
+        if (!b->layers)
+            continue;
+        b->layers[l->group][c][id] += of[c];
+        if (is_straight)
+            b->layers[groups + l->group][c][id] += of[c];
+    }
+}
+
+void path_add(path_tracer *t, int k, vmask lanes, vmask straight, vrgb e, const path_layer *l)
+{
     float of[3][LANES];
+    vmask outside = state_has(t, k, OUTDOORS);
     vstore(of[0], e.x);
     vstore(of[1], e.y);
     vstore(of[2], e.z);
-    for (int i = 0; i < LANES && k * LANES + i < t->alive; i++) {
-        int id = t->id[k * LANES + i], l = lane(which, i);
-        if (l < 0)
-            continue;
-        bool is_straight = vbits(straight) >> i & 1;
-        path_sums *sums  = is_straight ? &t->b->direct : &t->b->indirect;
-        bool lamp        = l < s->light_count;
-        float dimming    = lamp ? s->light_info[l].dimming : s->glow_dimming;
-        int group        = lamp ? s->light_info[l].group : s->glow_group;
-        for (int c = 0; c < 3; c++) {
-            (*sums)[c][id] += dimming * of[c][i];
-            if (!t->b->layers)
-                continue;
-            t->b->layers[group][c][id] += of[c][i];
-            if (is_straight)
-                t->b->layers[s->group_count + group][c][id] += of[c][i];
-        }
+    for (int bits = vbits(lanes & living(t, k)); bits; bits &= bits - 1) {
+        int i            = __builtin_ctz((unsigned)bits);
+        const float v[3] = { of[0][i], of[1][i], of[2][i] };
+        add_lane(t, t->id[k * LANES + i], v, vbits(straight) >> i & 1, vbits(outside) >> i & 1, l);
     }
 }
 
-static vfloat first_of(const path_tracer *t, int k)
+/* The same of light number `which` (-1: of none) in each lane: a lamp or a glowing surface. */
+static void add(path_tracer *t, vmask straight, int k, vrgb e, vint which)
 {
-    return vgather(t->first, vload_int(t->id + k * LANES));
-}
-
-/* p_a^2 / (p_a^2 + p_b^2), and 1 where there is no other way, b = 0, even to a direction that is as
- * good as never drawn. */
-static vfloat power_heuristic(vfloat a, vfloat b)
-{
-    vfloat ratio = b / a;
-    return vselect(b > 0.0f, 1.0f / (1.0f + ratio * ratio), vsplat(1.0f));
-}
-
-/* Light that was asked for where paths begin. */
-static void add_first_lights(path_tracer *t, int k)
-{
-    const direct_pick *l = &t->lights[k];
-    const vvec3 *n       = &t->at[k].normal;
-    vmask glows          = t->active[k] & (l->light >= t->s->light_count);
-    vfloat response      = vsensor_response(t->o->quantity, n, &l->wi);
-    if (vany(glows)) {
-        vfloat pdf = vsensor_pdf(t->o->quantity, n, &l->wi);
-        response   = response * vselect(glows, power_heuristic(l->pdf, pdf), vsplat(1.0f));
+    const scene *s = t->s;
+    vmask left     = living(t, k) & (which >= 0);
+    while (vany(left)) {
+        int l;
+        vmask same    = vtake_same(which, &left, &l);
+        bool lamp     = l < s->light_count;
+        path_layer to = { .group   = lamp ? s->light_info[l].group : s->glow_group,
+                          .dimming = lamp ? s->light_info[l].dimming : s->glow_dimming,
+                          .day     = lamp && s->light_info[l].sun };
+        path_add(t, k, same, straight, vscale(e, vsplat((float)scene_maintenance(s, l))), &to);
     }
-    add(t, ALL_LANES, k, vkeep3(t->active[k], vscale(l->e, response)), l->light);
 }
 
-/* And later: what of it the surface gives on, and how much it counts where rays find it too. */
-static void add_lights(path_tracer *t, int k)
+vrgb path_worth(const path_tracer *t, int k, const vvec3 *wi, bool beginning, vmask active,
+                vfloat *pdf)
+{
+    const scene *s = t->s;
+    if (beginning) {
+        const vvec3 *n = &t->at[k].normal;
+        if (pdf)
+            *pdf = vsensor_pdf(t->o->quantity, n, wi);
+        vfloat response = vkeep(active, vsensor_response(t->o->quantity, n, wi));
+        return (vrgb){ response, response, response };
+    }
+    vrgb f   = materials_reflect(s->materials, t->at[k].material, &t->shading[k], wi, active, pdf);
+    vrgb all = vscale(vmul(load3(t, WORTH, k), f), first_of(t, k));
+    if (s->smooth || s->textured)
+        all = vkeep3(on_one_side(&t->shading[k], wi), all);
+    return vkeep3(active, all);
+}
+
+vvec3 path_horizon(const path_tracer *t, int k, bool beginning)
+{
+    vmask around = t->around[k];
+    if (beginning)
+        around = quantity_is_round(t->o->quantity) ? ALL_LANES : (vmask){ 0 };
+    return vselect3(around, (vvec3){ 0 }, t->at[k].normal);
+}
+
+/* Light that was asked for: what of it counts, and how much where rays find it too: glowing
+ * surfaces, and after a path's beginning lamps by way of what is not matt. */
+static void add_lights(path_tracer *t, int k, bool beginning)
 {
     const scene *s       = t->s;
     const direct_pick *l = &t->lights[k];
-    vmask found          = t->asks[k] & (l->light >= s->light_count);
-    if (s->narrow)
-        found = found | (t->asks[k] & ((t->does[k] & DOES_NARROW) != 0));
-    bool both = vany(found);
+    vmask active         = t->asks[k] & (l->light >= 0);
+    vmask found          = active & (l->light >= s->light_count);
+    if (s->narrow && !beginning)
+        found = found | (active & ((t->does[k] & DOES_NARROW) != 0));
     vfloat pdf;
-    vrgb f = materials_reflect(s->materials, t->at[k].material, &t->shading[k], &l->wi, t->asks[k],
-                               both ? &pdf : NULL);
-    vrgb all = vscale(vmul(load3(t, WORTH, k), vmul(f, l->e)), first_of(t, k));
-    if (s->smooth || s->textured)
-        all = vkeep3(on_one_side(&t->shading[k], &l->wi), all);
+    bool both = vany(found);
+    vrgb all  = vmul(path_worth(t, k, &l->wi, beginning, active, both ? &pdf : NULL), l->e);
     if (both)
         all = vscale(all, vselect(found, power_heuristic(l->pdf, pdf), vsplat(1.0f)));
-    add(t, (vmask){ 0 }, k, vkeep3(t->asks[k], all), l->light);
+    add(t, beginning ? ALL_LANES : (vmask){ 0 }, k, vkeep3(active, all), l->light);
 }
 
 /* One that is drawn by its luminance would do, but for colour and for groups: a mixture's luminance
@@ -88,7 +109,7 @@ static void add_lights(path_tracer *t, int k)
 static bool asks_all_lamps(const path_tracer *t)
 {
     const scene *s = t->s;
-    return s->emitter_count == 0 && s->light_count <= ASKED_LAMPS &&
+    return s->emitter_count == 0 && scene_lamp_count(s) <= ASKED_LAMPS &&
            (s->lights_differ || t->b->layers);
 }
 
@@ -96,7 +117,7 @@ static bool asks_all_lamps(const path_tracer *t)
 void path_ask_lights(path_tracer *t, bool beginning)
 {
     const scene *s = t->s;
-    bool lamps     = (!beginning || t->o->lamps) && s->light_count > 0;
+    bool lamps     = (!beginning || t->o->lamps) && scene_lamp_count(s) > 0;
     bool all       = beginning && lamps && asks_all_lamps(t);
     if (!lamps && s->emitter_count == 0)
         return;
@@ -109,13 +130,13 @@ void path_ask_lights(path_tracer *t, bool beginning)
                            .glow_alone = !lamps,
                            .all_around = beginning && quantity_is_round(t->o->quantity),
                            .around     = !beginning && s->narrow ? t->around + first : NULL };
-        for (int l = 0; l < (all ? s->light_count : 1); l++) {
+        for (int l = 0; l < (all ? scene_lamp_count(s) : 1); l++) {
             if (all)
                 direct_lamp(s, t->direct, l, &b, t->lights + first);
             else
                 direct_one(s, t->direct, &b, t->lights + first);
             for (int k = first; k < first + b.packets; k++)
-                beginning ? add_first_lights(t, k) : add_lights(t, k);
+                add_lights(t, k, beginning);
         }
     }
 }
@@ -153,7 +174,7 @@ static vfloat glow_pdf(const path_tracer *t, int k, vmask bright)
     vmask later     = bright & state_has(t, k, SCATTERED);
     vmask first     = bright & ~later;
     vmask round     = quantity_is_round(t->o->quantity) ? first : (vmask){ 0 };
-    bool no_lamps   = s->light_count == 0;
+    bool no_lamps   = scene_lamp_count(s) == 0;
     vfloat pdf      = { 0 };
     if (vany(first))
         pdf = direct_glow_pdf(s, &before, &wi, emitter, no_lamps || !t->o->lamps, round, first);
@@ -214,14 +235,23 @@ static vmask see_past_body(const path_tracer *t, int k, int l, const vlight_hit 
     return first & ~blocked & ~passed->solids;
 }
 
-/* Lamp l, where the rays of packet k meet it before what they met. */
+/* A far lamp is before nothing at all. */
+static vmask is_before(vfloat distance, const vhit *hit)
+{
+    return (distance < hit->distance) | ((distance == INFINITY) & (hit->instance < 0));
+}
+
+/* Lamp l, where the rays of packet k meet it before what they met. A sun is too small to be met by
+ * chance: it is, by way of mirrors, from the eye alone. */
 static void add_lamp_met(path_tracer *t, int k, int l, vmask looking)
 {
     const light *lamp = t->s->lights[l];
     vlight_hit hit;
+    if (t->s->light_info[l].sun)
+        looking = looking & ~((load(t, LAMP_PDF, k) == INFINITY) & state_has(t, k, WIDE));
     vvec3 wi       = t->rays[k].direction;
     vmask met      = lamp->type->hit(lamp, &t->rays[k].origin, &wi, looking, &hit);
-    vmask seen     = met & (hit.dist < t->hits[k].distance);
+    vmask seen     = met & is_before(hit.dist, &t->hits[k]);
     vpassed passed = { .share = vspread((vec3){ 1, 1, 1 }) };
     vmask asked    = met & (load(t, LAMP_PDF, k) < INFINITY);
     if (t->s->light_info[l].owner && vany(asked))

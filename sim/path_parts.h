@@ -1,5 +1,6 @@
 /* sim/path_parts.h -- what the files of path.h share: path.c moves the paths, path_light.c adds up
- * the light that they find.
+ * the light of lamps and glowing surfaces that they find, path_sky.c that of skies, path_sun.c that
+ * of suns and of the patches that those light through portals.
  */
 #ifndef SIM_PATH_PARTS_H
 #define SIM_PATH_PARTS_H
@@ -7,6 +8,7 @@
 #include "sim/direct.h"
 #include "sim/lamp_boxes.h"
 #include "sim/path.h"
+#include "sim/shadow.h"
 
 enum { PACKETS = PATHS / LANES };
 
@@ -30,10 +32,14 @@ enum {
 
 /* Of a living path, bits. */
 enum {
-    SCATTERED = 1, /* it has left its beginning other than straight on */
-    AROUND    = 2, /* where it was last, light from below the horizon counts */
-    PASSED    = 4, /* it has gone straight on through something since */
+    SCATTERED = 1,  /* it has left its beginning other than straight on */
+    AROUND    = 2,  /* where it was last, light from below the horizon counts */
+    PASSED    = 4,  /* it has gone straight on through something since */
+    WIDE      = 8,  /* some direction of it was drawn from many */
+    OUTDOORS  = 16, /* the first surface that it met is outside */
 };
+
+typedef struct sun_patches sun_patches;
 
 struct path_tracer {
     const scene *s;
@@ -41,10 +47,12 @@ struct path_tracer {
     direct_scratch *direct;
     seen_lamps shown;        /* lamps that rays may find */
     const lamp_boxes *boxes; /* of those */
+    sun_patches *patches;    /* NULL: no sun comes in by a portal */
     int32_t *list;           /* room for as many */
     int64_t ray_count;
     path_bundle *b;
     int alive, fields;  /* of those below that are carried */
+    uint32_t depth;     /* of where they stand: vertices behind them */
     float first[PATHS]; /* sr: response / pdf of each path's first direction; from the eye 1 */
 
     /* Of each living path: whose it is, bits, what it carries */
@@ -64,6 +72,11 @@ struct path_tracer {
     direct_pick lights[PACKETS];
     vray rays[PACKETS];
     vhit hits[PACKETS];
+
+    /* And shadow rays that are not asked by way of `direct` */
+    vmask asked[PACKETS], blocked[PACKETS];
+    vpassed passed[PACKETS];
+    vint nobody[PACKETS]; /* 0: of world_any_hit's `spare` */
 };
 
 static inline int packets_of(const path_tracer *t) { return (t->alive + LANES - 1) / LANES; }
@@ -106,8 +119,60 @@ static inline vmask on_one_side(const vshading *s, const vvec3 *wi)
     return (vdot(*wi, s->n) > 0.0f) == (vdot(*wi, s->flat) > 0.0f);
 }
 
+/* p_a^2 / (p_a^2 + p_b^2), and 1 where there is no other way, b = 0, even to a direction that is as
+ * good as never drawn (Veach and Guibas, SIGGRAPH 1995). */
+static inline vfloat power_heuristic(vfloat a, vfloat b)
+{
+    vfloat ratio = b / a;
+    return vselect(b > 0.0f, 1.0f / (1.0f + ratio * ratio), vsplat(1.0f));
+}
+
+/* response / pdf of each path's first direction. */
+static inline vfloat first_of(const path_tracer *t, int k)
+{
+    return vgather(t->first, vload_int(t->id + k * LANES));
+}
+
+/* Random numbers of packet k where it stands, besides those of others that `purpose` tells apart.
+ */
+vsample4 path_numbers(const path_tracer *t, int k, uint32_t purpose);
+enum { OF_LIGHT = ~0x0, OF_SKY = 0x5c1e, OF_PATCH = 0x9a7c, OF_SUN = 0x50af };
+
+/* What asking for light that comes along wi is worth where packet k stands: by channel, response or
+ * f cos, times what the path is worth. In *pdf the density with which the path's own ray would take
+ * that direction, 1/sr. */
+vrgb path_worth(const path_tracer *t, int k, const vvec3 *wi, bool beginning, vmask active,
+                vfloat *pdf);
+
+/* The normal by which light is chosen: none where light from all around counts. */
+vvec3 path_horizon(const path_tracer *t, int k, bool beginning);
+
+/* Where found light belongs. */
+typedef struct path_layer {
+    int group;
+    float dimming; /* of its group, as the sums of all light have it */
+    bool day;      /* it is daylight */
+    bool ground;   /* it has been reflected outside */
+} path_layer;
+
+/* Adds what each path of packet k found, e; it came straight to those that `straight` says. */
+void path_add(path_tracer *t, int k, vmask lanes, vmask straight, vrgb e, const path_layer *of);
+
 /* Next-event estimation where the paths stand. */
 void path_ask_lights(path_tracer *t, bool beginning);
+void path_ask_sky(path_tracer *t, bool beginning);
+void path_ask_suns(path_tracer *t, bool beginning);
+
+/* Light that comes by way of sunlit patches, which paths find for themselves, too. */
+bool path_patches_new(path_tracer *t, arena *a, lux_error *err);
+void path_ask_patches(path_tracer *t, bool beginning);
+
+/* The density, 1/sr, with which path_ask_patches() draws the way from where packet k was last to
+ * where it stands, for the sun of that number; wi: toward the sun. */
+vfloat path_patch_pdf(const path_tracer *t, int k, int sun, const vvec3 *wi, vmask active);
+
+/* The sky, where the rays met nothing. */
+void path_add_sky(path_tracer *t);
 
 /* Lamps that the rays meet on their way. */
 void path_add_lamps_met(path_tracer *t);

@@ -35,25 +35,22 @@ static bool make_planes(arena *a, view_result *out, lux_error *err)
 static void take_layers(const view_run_state *v, const accuracy_result *got, view_result *out,
                         size_t i, size_t to)
 {
-    size_t n           = (size_t)(out->width * out->height);
-    double maintenance = v->s->study->maintenance;
-    double seen        = got->mean[(size_t)(SEEN + before_plain(v)) * n + i];
+    size_t n    = (size_t)(out->width * out->height);
+    double seen = got->mean[(size_t)(SEEN + before_plain(v)) * n + i];
     for (int l = 0; l < v->layers; l++) {
         view_layer *layer = &out->layers[l];
         const double *mean =
             got->mean + (size_t)(CHANNELS + before_plain(v) + OF_LAYER * l) * n + i;
         for (size_t c = 0; c < 3; c++)
-            layer->radiance[c][to] = (float)(maintenance * mean[c * n]);
-        layer->illuminance[to] = seen > 0.0 ? (float)(maintenance * mean[3 * n] / seen) : 0.0f;
-        layer->half_width[to] =
-            (float)(maintenance * got->half_width[(size_t)(FIRST_LAYER + l) * n + i]);
+            layer->radiance[c][to] = (float)(mean[c * n]);
+        layer->illuminance[to] = seen > 0.0 ? (float)(mean[3 * n] / seen) : 0.0f;
+        layer->half_width[to]  = (float)(got->half_width[(size_t)(FIRST_LAYER + l) * n + i]);
     }
 }
 
 static void take_pixels(const view_run_state *v, const accuracy_result *got, view_result *out)
 {
     int items          = out->width * out->height;
-    double maintenance = v->s->study->maintenance;
     const double *mean = got->mean + (size_t)(before_plain(v) * items); /* as plain_of() */
     double logs = 0.0, bright = 0.0;
     for (int i = 0; i < items; i++) {
@@ -62,18 +59,17 @@ static void take_pixels(const view_run_state *v, const accuracy_result *got, vie
         size_t to = (size_t)y * (size_t)out->width + (size_t)x, n = (size_t)items, from = (size_t)i;
         double seen = mean[SEEN * n + from], length2 = 0.0;
         for (size_t c = 0; c < 3; c++) {
-            out->radiance[c][to] = (float)(maintenance * mean[(RED + c) * n + from]);
+            out->radiance[c][to] = (float)(mean[(RED + c) * n + from]);
             out->albedo[c][to] = seen > 0.0 ? (float)(mean[(ALBEDO + c) * n + from] / seen) : 0.0f;
             length2 += mean[(NORMAL + c) * n + from] * mean[(NORMAL + c) * n + from];
         }
         for (size_t c = 0; c < 3; c++)
             out->normal[c][to] =
                 length2 > 0.0 ? (float)(mean[(NORMAL + c) * n + from] / sqrt(length2)) : 0.0f;
-        out->illuminance[to] =
-            seen > 0.0 ? (float)(maintenance * mean[ILLUMINANCE * n + from] / seen) : 0.0f;
-        out->distance[to]   = seen > 0.0 ? (float)(mean[DISTANCE * n + from] / seen) : 0.0f;
-        out->half_width[to] = (float)(maintenance * got->half_width[i]);
-        double luminance    = maintenance * got->mean[LUMINANCE * n + from];
+        out->illuminance[to] = seen > 0.0 ? (float)(mean[ILLUMINANCE * n + from] / seen) : 0.0f;
+        out->distance[to]    = seen > 0.0 ? (float)(mean[DISTANCE * n + from] / seen) : 0.0f;
+        out->half_width[to]  = (float)(got->half_width[i]);
+        double luminance     = got->mean[LUMINANCE * n + from];
         take_layers(v, got, out, from, to);
         if (luminance > 0.0)
             logs += log(luminance), bright += 1.0;

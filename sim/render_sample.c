@@ -113,10 +113,25 @@ static void add_lamp(const view_run_state *v, const view_scratch *w, float *valu
     const light *lamp       = v->s->lights[l];
     const scene_light *info = &v->s->light_info[l];
     vlight_hit hit;
-    vmask seen = lamp->type->hit(lamp, &w->rays[k].origin, &w->rays[k].direction, looking, &hit);
-    seen       = seen & (hit.dist < w->hits[k].distance);
+    vmask seen  = lamp->type->hit(lamp, &w->rays[k].origin, &w->rays[k].direction, looking, &hit);
+    seen        = seen & ((hit.dist < w->hits[k].distance) |
+                   ((hit.dist == INFINITY) & (w->hits[k].instance < 0)));
+    vfloat left = vsplat((float)scene_maintenance(v->s, l));
     if (vany(seen))
-        add_emitted(v, values, k, count, vkeep3(seen, hit.radiance), info->group, info->dimming);
+        add_emitted(v, values, k, count, vkeep3(seen, vscale(hit.radiance, left)), info->group,
+                    info->dimming);
+}
+
+/* The sky behind everything. */
+static void add_skies(const view_run_state *v, const view_scratch *w, float *values, int k,
+                      int count)
+{
+    const scene *s   = v->s;
+    const vvec3 *way = &w->rays[k].direction;
+    vmask nothing    = w->active[k] & (w->hits[k].instance < 0) & ~w->passed[k];
+    for (int i = 0; i < s->sky_count && vany(nothing); i++)
+        add_emitted(v, values, k, count, sky_radiance(s->skies[i].sky, way, nothing),
+                    s->skies[i].group, 1.0f);
 }
 
 /* What of a surface is seen besides light. */
@@ -193,10 +208,12 @@ static void begin_packet(view_run_state *v, view_scratch *w, const sample_id *id
             set_out(v, &w->eye, w->eye_sample_of, ids, sample, w->rays[k].origin,
                     w->rays[k].direction);
     }
-    if (s->glows)
-        add_emitted(v, values, k, count,
-                    materials_emission(s->materials, at.material, &shading, met & ~not_plain),
-                    s->glow_group, s->glow_dimming);
+    if (s->glows) {
+        vfloat left = vsplat((float)s->study->maintenance);
+        vrgb glow   = materials_emission(s->materials, at.material, &shading, met & ~not_plain);
+        add_emitted(v, values, k, count, vscale(glow, left), s->glow_group, s->glow_dimming);
+    }
+    add_skies(v, w, values, k, count);
     for (int l = 0; l < w->before; l++)
         add_lamp(v, w, values, k, count, w->lamps[l], w->active[k] & ~not_plain);
 }

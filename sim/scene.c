@@ -77,7 +77,8 @@ static bool is_dark(vec3 c) { return c.x == 0.0f && c.y == 0.0f && c.z == 0.0f; 
 static int32_t deeds_of(const material *m)
 {
     return (m->type->reflect ? DOES_ASK : 0) | (m->matt ? 0 : DOES_NARROW) |
-           (m->two_sided ? DOES_AROUND : 0) | (m->solid ? DOES_SOLID : 0);
+           (m->two_sided ? DOES_AROUND : 0) | (m->solid ? DOES_SOLID : 0) |
+           (material_is_hollow(m) ? DOES_HOLLOW : 0);
 }
 
 static bool say_what_surfaces_do(const scene_build *b, scene *s)
@@ -85,9 +86,10 @@ static bool say_what_surfaces_do(const scene_build *b, scene *s)
     int32_t *does = arena_array(b->a, int32_t, (size_t)s->material_count + 1, b->err);
     for (int i = 0; does && i < s->material_count; i++) {
         const scene_material *m = &s->material_info[i];
-        does[i]                 = deeds_of(s->materials[i]);
+        does[i]                 = deeds_of(s->materials[i]) | (m->exterior ? DOES_EXTERIOR : 0);
         if (!m->used)
             continue;
+        s->exteriors |= m->exterior;
         s->reflects |= !is_dark(m->reflectance) || !is_dark(m->transmittance);
         s->glows |= !is_dark(m->emission);
         s->textured |= m->textured;
@@ -96,7 +98,7 @@ static bool say_what_surfaces_do(const scene_build *b, scene *s)
         s->solids |= s->materials[i]->solid;
     }
     s->material_does = does;
-    if (s->light_count == 0 && !s->glows)
+    if (s->light_count == 0 && s->sky_count == 0 && !s->glows)
         notice_add(b->notices, "%s: nothing gives light: every result will be 0 lx",
                    b->study->path);
     return does != NULL;
@@ -134,7 +136,7 @@ static bool make_set(scene_build *b, const scene *s, int group, light_set *to)
     if (!lights)
         return false;
     int count = 0;
-    for (int l = 0; group > -2 && l < s->light_count; l++)
+    for (int l = 0; group > -2 && l < s->light_count - s->sun_count; l++)
         if (group < 0 || info[l].group == group)
             numbers[count++] = l;
     to->lamps = count;
@@ -149,21 +151,33 @@ static bool make_set(scene_build *b, const scene *s, int group, light_set *to)
     return to->tree || (to->emitters == 0 && to->lamps <= FEW_LAMPS);
 }
 
+/* Groups of suns and skies alone have no set: one would be drawn in vain. */
 static bool make_sets(scene_build *b, scene *s)
 {
-    s->set_count   = s->layered ? s->group_count : 1;
-    light_set *all = arena_array(b->a, light_set, (size_t)s->set_count + 1, b->err);
-    s->sets        = all;
-    for (int i = 0; all && i < s->set_count; i++)
-        if (!make_set(b, s, s->layered ? i : -1, &all[i]))
+    int groups      = s->layered ? s->group_count : 1;
+    light_set *all  = arena_array(b->a, light_set, (size_t)groups + 1, b->err);
+    int32_t *set_of = arena_array(b->a, int32_t, (size_t)s->group_count + 1, b->err);
+    s->sets         = all;
+    s->set_of_group = set_of;
+    for (int i = 0; all && set_of && i < groups; i++) {
+        light_set *set = &all[s->set_count];
+        if (!make_set(b, s, s->layered ? i : -1, set))
             return false;
-    return all && make_set(b, s, -2, &s->glow_set);
+        set_of[i] = set->lamps + set->emitters > 0 ? s->set_count++ : -1;
+    }
+    return all && set_of && make_set(b, s, -2, &s->glow_set);
 }
 
 /* Glowing surfaces are of the group of lights that are in none. */
 static bool take_groups(scene_build *b, scene *s)
 {
-    s->glow_dimming    = (float)study_group_factor(b->study, NULL);
+    s->glow_dimming = (float)study_group_factor(b->study, NULL);
+    if (b->options->moments) {
+        s->groups      = b->groups.items;
+        s->group_count = (int)b->groups.count;
+        s->layered = s->by_moment = true;
+        return true;
+    }
     const char **names = b->groups.items;
     size_t other       = 0;
     while (other < b->groups.count && strcmp(names[other], STUDY_GROUP_OTHER) != 0)
@@ -183,6 +197,8 @@ static bool take_groups(scene_build *b, scene *s)
                       b->study->path, s->group_count, MOST_GROUPS);
     return true;
 }
+
+bool scene_is_lit(const scene *s) { return s->light_count > 0 || s->sky_count > 0 || s->glows; }
 
 bool scene_is_in_room(const scene *s, dvec3 p)
 {
@@ -206,14 +222,14 @@ static void find_clear_lights(const scene_build *b, const scene *s)
         dvec3 high       = d3_add(d3_from(box.high), b->centre);
         bool inside      = !box.far && low.x > off.x && low.y > off.y && low.z > off.z &&
                       high.x < size.x - off.x && high.y < size.y - off.y && high.z < size.z - off.z;
-        info[l].clear = bare && (inside || !b->study->room.given);
+        info[l].clear = bare && !info[l].sun && (inside || !b->study->room.given);
     }
 }
 
 static void say_what_lights_are(scene *s)
 {
     for (int l = 0; l < s->light_count; l++) {
-        s->extended |= light_has_extent(s->lights[l]);
+        s->extended |= !s->light_info[l].sun && light_has_extent(s->lights[l]);
         s->owners |= s->light_info[l].owner != 0;
     }
 }
@@ -223,6 +239,8 @@ const scene *scene_new(arena *a, const study *from, const scene_options *o, noti
 {
     scene_build b = { .a = a, .study = from, .options = o, .notices = n, .err = err };
     scene *s      = arena_new(a, scene, err);
+    if (o->moments && scene_group(&b, SCENE_LAMPS) < 0)
+        return NULL;
     if (!s || !read_files(&b) || !build_materials(&b) || !build_bounds(&b) || !build_bodies(&b))
         return NULL;
     s->world = build_world(&b);
@@ -248,7 +266,7 @@ const scene *scene_new(arena *a, const study *from, const scene_options *o, noti
     s->moments        = b.moments;
     s->moment_count   = b.moment_count;
     if (!join_lights(&b, s) || !say_what_surfaces_do(&b, s) || !take_groups(&b, s) ||
-        !make_sets(&b, s))
+        !make_sets(&b, s) || !scene_find_portals(&b, s))
         return NULL;
     find_clear_lights(&b, s);
     s->light_info = b.light_info.items;

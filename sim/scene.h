@@ -43,6 +43,7 @@ typedef enum material_deed {
     DOES_AROUND   = 4,  /* light from the other side counts */
     DOES_SOLID    = 8,  /* it is the face of a solid that refracts */
     DOES_EXTERIOR = 16, /* it is outside: light that it gives on comes from there */
+    DOES_HOLLOW   = 32, /* it lets light straight through */
 } material_deed;
 
 typedef struct scene_light {
@@ -85,6 +86,9 @@ typedef struct light_set {
     int lamps, emitters;
 } light_set;
 
+/* The first group of a series, of all that is no daylight. */
+#define SCENE_LAMPS "lamps"
+
 typedef struct scene_camera {
     const char *name;
     transform place; /* to the user's frame; looks along -z, +y up */
@@ -107,23 +111,27 @@ typedef struct scene {
     int emitter_count;          /* triangles of glowing surfaces */
     const light *const *lights; /* lamps, then emitters */
     const scene_light *light_info;
-    const light_set *sets; /* of each group if the scene is layered, else one of all */
+    const light_set *sets; /* of each group that has lamps if the scene is layered, else one of all;
+                              suns are in none */
     int set_count;
+    const int32_t *set_of_group;  /* -1: the group has none */
     light_set glow_set;           /* glowing surfaces alone */
     const int64_t *first_emitter; /* of an instance: where its triangles begin in emitter_of; -1 */
     const int32_t *emitter_of;    /* the emitter that a triangle is, or -1 */
     bool lights_differ;           /* in colour: then luminance does not tell all of a mixture */
-    bool extended;                /* some lamp is more than a point */
+    bool extended;                /* some lamp that is no sun is more than a point */
 
     /* Daylight. Of several moments each has a group of its own, and "lamps" holds all else; else
      * there are groups `sun` and `sky`. */
     const moment *moments;
     int moment_count; /* 0: neither sky nor sun, else >= 1 */
+    bool by_moment;   /* groups are of moments */
     const scene_sky *skies;
     int sky_count;
     const dome *dome;       /* over all skies; NULL: none gives light */
     const portals *portals; /* what they come in by; NULL: none known */
     int portal_count;
+    const portal *portal_list;
     bool exteriors; /* some surface is outside */
 
     int group_count; /* of lamps; "other" holds those that are in none */
@@ -171,6 +179,19 @@ typedef struct scene_options {
  * looks like a mistake (a luminaire outside the room) is noticed. */
 const scene *scene_new(arena *a, const study *s, const scene_options *o, notices *n,
                        lux_error *err);
+
+/* Whether anything gives light at all. */
+bool scene_is_lit(const scene *s);
+
+/* Lamps that are no suns. */
+static inline int scene_lamp_count(const scene *s) { return s->light_count - s->sun_count; }
+
+/* What is left of the light of lamp l, or (l >= light_count) of glowing surfaces, when cleaning is
+ * due; all of daylight. */
+static inline double scene_maintenance(const scene *s, int l)
+{
+    return l < s->light_count && s->light_info[l].sun ? 1.0 : s->study->maintenance;
+}
 
 /* What glowing surfaces send out from both sides, dimmed, lm. */
 double scene_glow_lumens(const scene *s);

@@ -1,7 +1,6 @@
 /* sim/scene_bake.c -- meshes that stand in one place, or are small, become one common mesh, in
  * double precision.
  */
-#include "sim/room.h"
 #include "sim/scene_world_parts.h"
 
 #include <string.h>
@@ -10,9 +9,9 @@
 
 enum { MOST_COPIED = 20000 }; /* triangles of all copies of a mesh */
 
-half half_of(const world_parts *w, const mesh *m, uint32_t first, int which)
+half half_of(const world_parts *w, const mesh *m, const uint32_t *made_of, int which)
 {
-    half h = { m, first, 0, which };
+    half h = { m, made_of, 0, which };
     for (uint32_t t = 0; t < m->triangle_count; t++)
         h.count += half_has(w, &h, t);
     return h;
@@ -91,7 +90,7 @@ void bake_file(scene_build *b, world_parts *w, int i)
         if (!mesh_is_baked(b, i, p->mesh))
             continue;
         for (int which = 0; which < HALVES; which++) {
-            half h = half_of(w, &g->meshes[p->mesh].triangles, b->first_material[i], which);
+            half h = half_of(w, &g->meshes[p->mesh].triangles, scene_made_of(b, i, k), which);
             for (int c = 0; c < s->at_count; c++) {
                 transform copy     = scene_copy_place(s, c);
                 transform to_world = transform_product(&copy, &p->place);
@@ -101,21 +100,21 @@ void bake_file(scene_build *b, world_parts *w, int i)
     }
 }
 
+/* Walls and panes lie in halves of their own, each with all corners of the room. */
 void bake_room(scene_build *b, world_parts *w)
 {
-    dvec3 corner[ROOM_POSITIONS];
-    uint32_t corners[3 * ROOM_TRIANGLES], made_of[ROOM_TRIANGLES];
-    room_box(b->study->room.size, corner, corners, made_of);
+    const room_mesh *r = &w->room;
     for (int which = 0; which < HALVES; which++) {
         baked *to = &w->common[which];
-        for (int i = 0; i < ROOM_POSITIONS; i++)
-            to->positions[i] = d3_to_float(d3_sub(corner[i], b->centre));
-        to->position_count = ROOM_POSITIONS;
-        for (uint32_t t = 0; t < ROOM_TRIANGLES; t++) {
-            if (w->hollow[made_of[t]] != (which == HOLLOW))
+        for (uint32_t i = 0; i < r->position_count; i++)
+            to->positions[i] = d3_to_float(d3_sub(r->positions[i], b->centre));
+        to->position_count = r->position_count;
+        for (uint32_t t = 0; t < r->triangle_count; t++) {
+            if (w->hollow[r->material[t]] != (which == HOLLOW))
                 continue;
-            memcpy(&to->corners[3 * to->triangle_count], &corners[3 * t], 3 * sizeof *corners);
-            to->material[to->triangle_count++] = made_of[t];
+            memcpy(&to->corners[3 * (size_t)to->triangle_count], &r->corners[3 * (size_t)t],
+                   3 * sizeof *r->corners);
+            to->material[to->triangle_count++] = r->material[t];
         }
     }
 }

@@ -26,14 +26,22 @@ typedef struct node_lamps {
     list lamps; /* of node_lamp */
 } node_lamps;
 
+/* Of a scene entry: the scene's number of each material of its file. Equal pointers: the same. */
+typedef struct placed_materials {
+    const uint32_t *plain;            /* none of them outside: of all entries of a file the same */
+    const uint32_t *inside, *outside; /* of placements; of those that are outside by their node */
+    const bool *placements;           /* which are; NULL: none */
+} placed_materials;
+
 typedef struct scene_build {
     arena *a;
     const study *study;
     const scene_options *options;
     notices *notices;
     lux_error *err;
-    const gltf **files;             /* of study->scenes */
-    const uint32_t *first_material; /* of each file, as the scene counts */
+    const gltf **files;                 /* of study->scenes */
+    const uint32_t *first_material;     /* of each file, as the scene counts */
+    placed_materials *placed_materials; /* of study->scenes */
     uint32_t *const *times; /* of each file: how often each of its meshes stands in the scene */
     node_lamps *at_nodes;   /* of study->luminaires */
     int32_t **owners;       /* of study->scenes: of placement k of copy c, c * placement_count + k;
@@ -66,6 +74,7 @@ int scene_first_use(const scene_build *b, int i);
 
 /* Each fills in its part of the build; false with the error where it fails. */
 bool build_materials(scene_build *b); /* scene_materials.c */
+bool build_exteriors(scene_build *b); /* scene_exterior.c: placed_materials */
 bool build_bounds(scene_build *b);    /* scene_bounds.c: times, box, centre */
 bool build_bodies(scene_build *b);    /* scene_nodes.c: luminaires at nodes, what hangs there */
 world *build_world(scene_build *b);   /* scene_world.c */
@@ -82,6 +91,30 @@ bool scene_find_portals(scene_build *b, scene *s);
 
 /* The number of a group by its name, which is added if it is new; -1 if memory is out. */
 int scene_group(scene_build *b, const char *name);
+
+/* ---- what patterns name in scenes ------------------------------------------------------------ */
+
+/* For each node of a file the uppermost one at or above it that matches, < 0: none (scene_nodes.c);
+ * carrier and stack: of node_count. Whether any does. */
+bool scene_node_carriers(const gltf *g, const char *pattern, int64_t *carrier, uint32_t *stack);
+
+typedef struct named_patterns {
+    const char *key; /* of the study, for messages */
+    const char *const *list;
+    int count;
+} named_patterns;
+
+typedef struct named_parts {
+    bool *placements; /* of the file: those at or below a node of that name */
+    bool *materials;  /* of the file */
+} named_parts;
+
+/* What patterns name in scene entry i (scene_exterior.c). False, with the error, if one of them
+ * names no surface. */
+bool scene_named_parts(scene_build *b, int i, const named_patterns *p, named_parts *out);
+
+/* The scene's numbers of the file's materials in a placement of scene entry i. */
+const uint32_t *scene_made_of(const scene_build *b, int i, uint32_t placement);
 
 /* ---- between the files that make materials --------------------------------------------------- */
 

@@ -6,6 +6,7 @@
  * patches, which matter less each and are met as often together: then they may be smaller by n.
  */
 #include "core/color.h"
+#include "sim/room.h"
 #include "sim/scene_build.h"
 
 #include <stdio.h>
@@ -22,6 +23,7 @@ typedef struct surroundings {
     float distance[RAYS]; /* m; INFINITY: nothing is there */
     float back[RAYS];     /* the reflectance of what is there, as luminance */
     float strength[RAYS]; /* the lamp's intensity that way, as luminance */
+    vec3 toward[RAYS];
 } surroundings;
 
 /* Directions that lie evenly on the sphere, by the golden section. */
@@ -60,6 +62,9 @@ static void look_around(const scene *s, const light *l, vec3 at, surroundings *o
         vstore(out->distance + k, hit.distance);
         vstore(out->back + k, vrgb_luminance(albedo));
         vstore(out->strength + k, vkeep(lit, vrgb_luminance(lamp.e)));
+        for (int i = 0; i < LANES; i++)
+            out->toward[k + i] = (vec3){ lane(ray.direction.x, i), lane(ray.direction.y, i),
+                                         lane(ray.direction.z, i) };
     }
 }
 
@@ -149,14 +154,16 @@ static void tell_reaching_out(const scene *s, notices *n)
                info->at.z, count > 1 ? "" : "es");
 }
 
-/* The share of a lamp's light that meets nothing. A plain room is closed: there it has left it,
- * from a lamp in its very walls. Elsewhere 0. */
+/* The share of a lamp's light that meets nothing. A plain room is closed but for its windows: there
+ * it has left it, from a lamp in its very walls. Elsewhere 0. */
 static double lost_share(const scene *s, const scene_light *info, const surroundings *around)
 {
     double all = 0.0, lost = 0.0;
     for (int i = 0; i < RAYS; i++) {
         all += (double)around->strength[i];
-        lost += around->distance[i] < INFINITY ? 0.0 : (double)around->strength[i];
+        if (!(around->distance[i] < INFINITY) &&
+            !room_goes_out(&s->study->room, info->at, d3_from(around->toward[i])))
+            lost += (double)around->strength[i];
     }
     bool inside = s->study->room.given && scene_is_in_room(s, info->at);
     return inside && lost > flux_share * all ? lost / all : 0.0;

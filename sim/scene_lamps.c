@@ -39,7 +39,7 @@ double lamp_made_with(const scene_build *b, const study_emission *e)
 int scene_group(scene_build *b, const char *name)
 {
     const char **names = b->groups.items;
-    for (size_t i = 0; i < b->groups.count; i++)
+    for (size_t i = b->groups.count; i-- > 0;) /* mostly it is one of the last */
         if (!strcmp(names[i], name))
             return (int)i;
     const char **to = list_new(&b->groups, b->a, const char *, b->err);
@@ -60,14 +60,21 @@ static bool pass_on(scene_build *b, study_where where)
     return false;
 }
 
+/* In a series all lamps are one. */
+static int lamp_group(scene_build *b, const char *name)
+{
+    if (b->options->moments)
+        return scene_group(b, SCENE_LAMPS);
+    return scene_group(b, name ? name : STUDY_GROUP_OTHER);
+}
+
 bool lamp_add(scene_build *b, const light *l, const lamp_entry *e)
 {
     if (!l)
         return pass_on(b, e->where);
     const light **to  = list_new(&b->lights, b->a, const light *, b->err);
     scene_light *info = to ? list_new(&b->light_info, b->a, scene_light, b->err) : NULL;
-    int group =
-        info ? scene_group(b, e->emission->group ? e->emission->group : STUDY_GROUP_OTHER) : -1;
+    int group         = info ? lamp_group(b, e->emission->group) : -1;
     if (group < 0)
         return false;
     vec3 color     = e->emission->color;
@@ -172,6 +179,8 @@ static void warn_of_mixed_dimming(const scene_build *b)
 
 bool build_lamps(scene_build *b)
 {
+    if (b->options->lamps_off)
+        return true;
     if (!build_luminaires(b) || !build_lights(b) || !build_gltf_lights(b))
         return false;
     warn_of_mixed_dimming(b);

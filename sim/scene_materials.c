@@ -3,6 +3,7 @@
  * scene_material_gltf.c.
  */
 #include "core/color.h"
+#include "sim/room.h"
 #include "sim/scene_build.h"
 
 #include <stdio.h>
@@ -12,6 +13,8 @@
 /* Light dies out nowhere in a closed room whose surfaces give all of it back, and its illuminance
  * has no finite value. The whitest surfaces there are, of sintered PTFE, reflect 99 %. */
 static const float most_reflectance = 0.995f;
+
+static const char windows_name[] = "room: windows";
 
 /* What share of a surface is no hole, as materials_look() decides it place by place. */
 static double share_there(float openness, const material_textures *t)
@@ -88,8 +91,13 @@ static bool add(scene_build *b, const material_source *s)
     scene_material *info = list_new(&b->material_info, b->a, scene_material, b->err);
     if (!m || !info)
         return false;
+    gltf_material from  = *s->from;
+    material_source own = *s;
+    own.from            = &from;
+    if (b->options->lamps_off)
+        from.emission = (vec3){ 0, 0, 0 };
     *info = (scene_material){ .name = s->from->name, .overridden = s->instead, .used = s->used };
-    *m    = s->instead ? material_of_study(b, s, info) : material_of_gltf(b, s, info);
+    *m    = s->instead ? material_of_study(b, &own, info) : material_of_gltf(b, &own, info);
     if (*m)
         describe(*m, info);
     return *m != NULL;
@@ -176,6 +184,11 @@ static bool all_patterns_match(scene_build *b)
             found = study_match(m->match, info[k].name);
         if (found)
             continue;
+        if (b->study->room.window_count && study_match(m->match, windows_name))
+            return study_failed(b->study, m->where, b->err, ERR_ARGUMENT,
+                                "`%s` matches no pane: the windows of the room are open holes "
+                                "where they have no `transmittance`",
+                                m->match);
         list_names(b, names, sizeof names);
         return study_failed(b->study, m->where, b->err, ERR_ARGUMENT,
                             "`%s` matches no material; there are %s", m->match,
@@ -207,12 +220,44 @@ static bool add_side(scene_build *b, const char *name, vec3 reflectance)
                                       .used    = true });
 }
 
+/* Glass with the transmittance of window i, unless the study says otherwise. */
+static bool add_pane(scene_build *b, int i)
+{
+    static const gltf_material any = { .name = windows_name, .alpha = 1.0f };
+    const study_window *w          = &b->study->room.windows[i];
+    float t                        = (float)w->transmittance;
+    const glass_shapes open        = { .open = 1 };
+    const study_material *instead  = match(b, any.name);
+    const study_material glass     = { .where         = w->where,
+                                       .match         = windows_name,
+                                       .surface       = SURFACE_PANE,
+                                       .exponent      = (double)NAN,
+                                       .transmittance = { t, t, t },
+                                       .ior           = 1.52 };
+    if (!add(b, &(material_source){ .file    = b->study->path,
+                                    .from    = &any,
+                                    .instead = instead ? instead : &glass,
+                                    .glass   = &open,
+                                    .scale   = 1.0,
+                                    .used    = true }))
+        return false;
+    scene_material *info                        = b->material_info.items;
+    info[b->material_info.count - 1].overridden = instead != NULL;
+    return true;
+}
+
 static bool add_room(scene_build *b)
 {
     const study_room *r = &b->study->room;
-    return !r->given ||
-           (add_side(b, "room: ceiling", r->ceiling) && add_side(b, "room: walls", r->walls) &&
-            add_side(b, "room: floor", r->floor));
+    if (!r->given)
+        return true;
+    if (!add_side(b, "room: ceiling", r->ceiling) || !add_side(b, "room: walls", r->walls) ||
+        !add_side(b, "room: floor", r->floor))
+        return false;
+    for (int i = 0, panes = 0; i < r->window_count; i++)
+        if (room_pane(r, i) == panes && panes++ >= 0 && !add_pane(b, i))
+            return false;
+    return true;
 }
 
 /* Which materials of a file some placed triangle is made of: the others are not worth a word. */
@@ -285,5 +330,5 @@ bool build_materials(scene_build *b)
     }
     b->first_material = first;
     tell_bounded(b);
-    return all_patterns_match(b);
+    return all_patterns_match(b) && build_exteriors(b);
 }

@@ -8,9 +8,8 @@
 
 enum { UNKNOWN = -2, NONE = -1 };
 
-/* For each node the uppermost one at or above it that matches, or NONE: by way of a stack, since
- * trees may be deep. */
-static bool find_carriers(const gltf *g, const char *pattern, int64_t *carrier, uint32_t *stack)
+/* By way of a stack, since trees may be deep. */
+bool scene_node_carriers(const gltf *g, const char *pattern, int64_t *carrier, uint32_t *stack)
 {
     bool any = false;
     for (uint32_t n = 0; n < g->node_count; n++)
@@ -94,7 +93,7 @@ static bool find_nodes(scene_build *b, const study_luminaire *l, node_lamps *to,
     int64_t *carrier  = arena_array(&scratch, int64_t, nodes, b->err);
     uint32_t *stack   = carrier ? arena_array(&scratch, uint32_t, nodes, b->err) : NULL;
     int32_t *owner_of = stack ? arena_array(&scratch, int32_t, nodes, b->err) : NULL;
-    bool good         = owner_of && (!find_carriers(g, l->nodes, carrier, stack) ||
+    bool good         = owner_of && (!scene_node_carriers(g, l->nodes, carrier, stack) ||
                              add_lamps(b, l, to, i, carrier, owner_of));
     arena_clear(&scratch);
     return good;

@@ -5,7 +5,6 @@
  * and placed by matrices. Triangles that let light straight through stand apart from the others:
  * each mesh falls into two halves.
  */
-#include "sim/room.h"
 #include "sim/scene_world_parts.h"
 
 /* ---- what stands in several ------------------------------------------------------------------ */
@@ -79,44 +78,95 @@ static bool keep_mesh(scene_build *b, world_parts *w, const half *h, dvec3 *move
     return true;
 }
 
-/* The newest of w's meshes in all places where mesh m of scene i's file stands. */
-static bool add_places(scene_build *b, world_parts *w, int i, uint32_t m, dvec3 moved, bool hollow)
+/* The newest of w's meshes in all places where mesh m of scene i's file stands, made of those
+ * materials. */
+static bool add_places(scene_build *b, world_parts *w, int i, uint32_t m, const half *h,
+                       dvec3 moved)
 {
     const gltf *g = b->files[i];
     for (int j = i; j < b->study->scene_count; j++) {
         const study_scene *s = &b->study->scenes[j];
-        for (uint32_t k = 0; b->files[j] == g && k < g->placement_count; k++)
-            for (int c = 0; g->placements[k].mesh == m && c < s->at_count; c++) {
+        for (uint32_t k = 0; b->files[j] == g && k < g->placement_count; k++) {
+            if (g->placements[k].mesh != m || scene_made_of(b, j, k) != h->made_of)
+                continue;
+            for (int c = 0; c < s->at_count; c++) {
                 world_instance *in = list_new(&w->instances, b->a, world_instance, b->err);
                 if (!in)
                     return false;
                 transform copy = scene_copy_place(s, c);
                 in->mesh       = w->mesh_count;
-                in->hollow     = hollow;
+                in->hollow     = h->which == HOLLOW;
                 in->owner = b->owners[j] ? b->owners[j][(size_t)c * g->placement_count + k] : 0;
                 in->place = transform_product(&copy, &g->placements[k].place);
                 dvec3 o   = d3_sub(transform_point(&in->place, moved), b->centre);
                 in->place.m[0][3] = o.x, in->place.m[1][3] = o.y, in->place.m[2][3] = o.z;
             }
+        }
     }
     w->mesh_count++;
+    return true;
+}
+
+/* Mesh m of scene i's file as it is made of some materials. */
+static bool add_mesh(scene_build *b, world_parts *w, int i, uint32_t m, const uint32_t *made_of)
+{
+    for (int which = 0; which < HALVES; which++) {
+        half h = half_of(w, &b->files[i]->meshes[m].triangles, made_of, which);
+        dvec3 moved;
+        if (h.count && !(keep_mesh(b, w, &h, &moved) && add_places(b, w, i, m, &h, moved)))
+            return false;
+    }
+    return true;
+}
+
+/* Whether mesh m of scene i's file stands anywhere as made of those materials. */
+static bool stands(const scene_build *b, int i, uint32_t m, const uint32_t *made_of)
+{
+    const gltf *g = b->files[i];
+    for (int j = i; j < b->study->scene_count; j++)
+        for (uint32_t k = 0; b->files[j] == g && k < g->placement_count; k++)
+            if (g->placements[k].mesh == m && scene_made_of(b, j, k) == made_of)
+                return true;
+    return false;
+}
+
+static bool add_table(scene_build *b, list *to, const uint32_t *made_of)
+{
+    const uint32_t *const *all = to->items;
+    for (size_t i = to->count; i-- > 0;)
+        if (all[i] == made_of)
+            return true;
+    const uint32_t **new = list_new(to, b->a, const uint32_t *, b->err);
+    if (new)
+        *new = made_of;
+    return new != NULL;
+}
+
+/* What the placements of scene i's file are made of: const uint32_t *, none twice. */
+static bool find_tables(scene_build *b, int i, list *to)
+{
+    for (int j = i; j < b->study->scene_count; j++) {
+        const placed_materials *p = &b->placed_materials[j];
+        if (b->files[j] == b->files[i] &&
+            !(add_table(b, to, p->inside) && add_table(b, to, p->outside)))
+            return false;
+    }
     return true;
 }
 
 /* The meshes of scene i's file that stand in several places, with all their places. */
 static bool add_instances(scene_build *b, world_parts *w, int i)
 {
-    const gltf *g = b->files[i];
-    for (uint32_t m = 0; m < g->mesh_count; m++) {
+    list tables = { 0 };
+    if (!find_tables(b, i, &tables))
+        return false;
+    const uint32_t *const *all = tables.items;
+    for (uint32_t m = 0; m < b->files[i]->mesh_count; m++) {
         if (b->times[i][m] == 0 || mesh_is_baked(b, i, m))
             continue;
-        for (int which = 0; which < HALVES; which++) {
-            half h = half_of(w, &g->meshes[m].triangles, b->first_material[i], which);
-            dvec3 moved;
-            if (h.count &&
-                !(keep_mesh(b, w, &h, &moved) && add_places(b, w, i, m, moved, which == HOLLOW)))
+        for (size_t k = 0; k < tables.count; k++)
+            if (stands(b, i, m, all[k]) && !add_mesh(b, w, i, m, all[k]))
                 return false;
-        }
     }
     return true;
 }
@@ -161,16 +211,19 @@ static bool make_common(scene_build *b, const baked_size *size, baked *to)
 static bool make_room(scene_build *b, world_parts *w)
 {
     size_t meshes           = HALVES;
-    baked_size size[HALVES] = { { ROOM_POSITIONS, ROOM_TRIANGLES },
-                                { ROOM_POSITIONS, ROOM_TRIANGLES } };
+    baked_size room         = { w->room.position_count, w->room.triangle_count };
+    baked_size size[HALVES] = { room, room };
     for (int i = 0; i < b->study->scene_count; i++) {
         const gltf *g = b->files[i];
         if (scene_first_use(b, i) != i)
             continue;
-        meshes += HALVES * (size_t)g->mesh_count;
+        list tables = { 0 };
+        if (!find_tables(b, i, &tables))
+            return false;
+        meshes += HALVES * tables.count * g->mesh_count;
         for (uint32_t m = 0; m < g->mesh_count; m++)
             for (int which = 0; mesh_is_baked(b, i, m) && which < HALVES; which++) {
-                half h = half_of(w, &g->meshes[m].triangles, b->first_material[i], which);
+                half h = half_of(w, &g->meshes[m].triangles, b->placed_materials[i].plain, which);
                 count_mesh(w, &h, b->times[i][m], &size[which]);
             }
     }
@@ -218,10 +271,12 @@ static bool add_common(scene_build *b, world_parts *w)
 
 static bool collect(scene_build *b, world_parts *w)
 {
+    const study_room *room = &b->study->room;
+    if (room->given && !room_make(b->a, room, &w->room, b->err))
+        return false;
     if (!look_at_materials(b, w) || !make_room(b, w))
         return false;
-    if (b->study->room.given)
-        bake_room(b, w);
+    bake_room(b, w);
     for (int i = 0; i < b->study->scene_count; i++)
         bake_file(b, w, i);
     if (!add_common(b, w))

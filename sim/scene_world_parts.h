@@ -2,6 +2,7 @@
 #ifndef SIM_SCENE_WORLD_PARTS_H
 #define SIM_SCENE_WORLD_PARTS_H
 
+#include "sim/room.h"
 #include "sim/scene_build.h"
 
 /* What lets light straight through is met by other rays, and stands in meshes of its own. */
@@ -17,22 +18,24 @@ typedef struct baked {
 typedef struct world_parts {
     const bool *hollow;   /* of each material of the scene */
     bool texcoord[2];     /* some used material goes by texture coordinates of that set */
+    room_mesh room;       /* of the study; no triangles: it has none */
     baked common[HALVES]; /* what stands in one place */
     mesh *meshes;         /* the common ones first */
     uint32_t mesh_count;
     list instances;
 } world_parts;
 
-/* The triangles of a mesh that go into one half; `first`: the material 0 of its file. */
+/* The triangles of a mesh that go into one half. */
 typedef struct half {
     const mesh *of;
-    uint32_t first, count; /* count: of triangles */
+    const uint32_t *made_of; /* the scene's number of each material of its file */
+    uint32_t count;          /* of triangles */
     int which;
 } half;
 
 static inline uint32_t half_material(const half *h, uint32_t t)
 {
-    return h->first + (h->of->material ? h->of->material[t] : 0);
+    return h->made_of[h->of->material ? h->of->material[t] : 0];
 }
 
 static inline bool half_has(const world_parts *w, const half *h, uint32_t t)
@@ -40,7 +43,7 @@ static inline bool half_has(const world_parts *w, const half *h, uint32_t t)
     return w->hollow[half_material(h, t)] == (h->which == HOLLOW);
 }
 
-half half_of(const world_parts *w, const mesh *m, uint32_t first, int which);
+half half_of(const world_parts *w, const mesh *m, const uint32_t *made_of, int which);
 
 /* Whether a mesh of scene i's file goes into the common meshes, in all its places. */
 bool mesh_is_baked(const scene_build *b, int i, uint32_t mesh_index);

@@ -23,43 +23,6 @@ static bool read_version(const study_reader *r, const yaml_node_t *value, void *
                              "version %g of study files, this program knows 1", version);
 }
 
-static bool read_sky_model(const study_reader *r, const yaml_node_t *value, void *record)
-{
-    static const study_word words[] = {
-        { "none", STUDY_OPTIONAL },    { "uniform", STUDY_NOT_YET },
-        { "overcast", STUDY_NOT_YET }, { "intermediate", STUDY_NOT_YET },
-        { "clear", STUDY_NOT_YET },    { "cie", STUDY_NOT_YET },
-        { "perez", STUDY_NOT_YET },    { "panorama", STUDY_NOT_YET },
-    };
-    (void)record;
-    return study_read_word(r, value, words, sizeof words / sizeof *words, sizeof *words) >= 0;
-}
-
-static bool read_sky(const study_reader *r, const yaml_node_t *value, void *record)
-{
-    static const study_key table[] = {
-        { "model", STUDY_REQUIRED, read_sky_model, 0 },
-        { "type", STUDY_NOT_YET },
-        { "sun", STUDY_NOT_YET },
-        { "turbidity", STUDY_NOT_YET },
-        { "horizontal", STUDY_NOT_YET },
-        { "sun_illuminance", STUDY_NOT_YET },
-        { "sun_at", STUDY_NOT_YET },
-        { "ground", STUDY_NOT_YET },
-        { "direct_normal", STUDY_NOT_YET },
-        { "diffuse_horizontal", STUDY_NOT_YET },
-        { "dew_point", STUDY_NOT_YET },
-        { "file", STUDY_NOT_YET },
-        { "rotate", STUDY_NOT_YET },
-        { "scale", STUDY_NOT_YET },
-        { "cie", STUDY_NOT_YET },
-        { "perez", STUDY_NOT_YET },
-        { "panorama", STUDY_NOT_YET },
-    };
-    static const study_keys keys = STUDY_KEYS("a sky", table);
-    return study_read_map(r, value, &keys, record);
-}
-
 static bool read_maintenance(const study_reader *r, const yaml_node_t *value, void *record)
 {
     study *s                    = record;
@@ -70,9 +33,9 @@ static const study_key top_table[] = {
     { "lux4", STUDY_REQUIRED, read_version, 0 },
     { "room", STUDY_OPTIONAL, study_read_room, offsetof(study, room) },
     { "scene", STUDY_OPTIONAL, study_read_scenes, 0 },
-    { "site", STUDY_NOT_YET },
-    { "when", STUDY_NOT_YET },
-    { "sky", STUDY_OPTIONAL, read_sky, 0 },
+    { "site", STUDY_OPTIONAL, study_read_site, offsetof(study, site) },
+    { "when", STUDY_OPTIONAL, study_read_when, offsetof(study, when) },
+    { "sky", STUDY_OPTIONAL, study_read_sky, offsetof(study, sky) },
     { "maintenance", STUDY_OPTIONAL, read_maintenance, 0 },
     { "luminaires", STUDY_OPTIONAL, study_read_luminaires, 0 },
     { "lights", STUDY_OPTIONAL, study_read_lights, 0 },
@@ -167,7 +130,7 @@ static bool read_top(const study_reader *r, study *s, int index)
         return false;
     return study_read_map(r, top, &top_keys, s) && study_finish_luminaires(s, r->a, r->err) &&
            study_finish_dimmings(s, r->err) && study_finish_grids(s, r->err) &&
-           names_are_unique(s, r->err);
+           study_finish_when(s, r->a, r->err) && names_are_unique(s, r->err);
 }
 
 /* The study whose keys are those of the node, kept in r->a. */

@@ -66,7 +66,8 @@ typedef struct study_site {
     study_where where;
     bool given;
     site at;
-    const clock_zone *zone; /* of local times; NULL: times need an offset of their own */
+    const clock_zone *zone; /* of local times; not given: the offset of `when`; NULL: it has none */
+    const char *zone_name;  /* as written; NULL */
     double north_deg;       /* 0: where true north lies, clockwise from +y seen from above */
 } study_site;
 

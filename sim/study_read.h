@@ -6,6 +6,9 @@
 
 /* Values of top-level keys, read into a study. */
 study_read_fn study_read_room, study_read_scenes; /* study_scene.c */
+study_read_fn study_read_site;                    /* study_site.c: study_site */
+study_read_fn study_read_when;                    /* study_when.c: study_when */
+study_read_fn study_read_sky;                     /* study_sky.c: study_sky */
 study_read_fn study_read_materials;               /* study_material.c */
 study_read_fn study_read_luminaires;              /* study_luminaire.c */
 study_read_fn study_read_lights;                  /* study_light.c */
@@ -13,6 +16,11 @@ study_read_fn study_read_dimmings;                /* study_group.c */
 study_read_fn study_read_grids;                   /* study_grid.c */
 study_read_fn study_read_views;                   /* study_view.c */
 study_read_fn study_read_variants;                /* study_variant.c */
+
+/* `windows` of a room, into a study_room; and, once its size is known, whether they fit: `list` is
+ * where they stand (NULL: there are none). */
+study_read_fn study_read_windows; /* study_window.c */
+bool study_check_windows(const study_reader *r, const study_room *room, const yaml_node_t *list);
 
 /* What luminaires and lights share: their name, and what is in their `emission`. */
 /* clang-format off */
@@ -25,11 +33,12 @@ study_read_fn study_read_variants;                /* study_variant.c */
 /* clang-format on */
 
 /* Once all is read. The places of luminaires with `layout`, and whether each can look at `aim_at`;
- * whether groups are there to be dimmed; the planes of grids on surfaces of the room, and counts.
- */
+ * whether groups are there to be dimmed; the planes of grids on surfaces of the room, and counts;
+ * whether the sun is to be found in one way. */
 bool study_finish_luminaires(study *s, arena *a, lux_error *err);
 bool study_finish_dimmings(const study *s, lux_error *err);
 bool study_finish_grids(const study *s, lux_error *err);
+bool study_finish_when(study *s, arena *a, lux_error *err);
 
 /* The plane of a grid `on: ...` (study_grid_place.c). */
 bool study_grid_place(const study *s, study_grid *g, lux_error *err);

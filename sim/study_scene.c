@@ -25,12 +25,13 @@ bool study_read_room(const study_reader *r, const yaml_node_t *value, void *fiel
     static const study_key table[] = {
         { "size", STUDY_REQUIRED, study_read_size, offsetof(study_room, size) },
         { "reflectance", STUDY_REQUIRED, read_room_reflectance, 0 },
-        { "windows", STUDY_NOT_YET },
+        { "windows", STUDY_OPTIONAL, study_read_windows, 0 },
     };
     static const study_keys keys = STUDY_KEYS("a room", table);
     study_room *room             = field;
     *room                        = (study_room){ .where = study_node_where(value), .given = true };
-    return study_read_map(r, value, &keys, room);
+    return study_read_map(r, value, &keys, room) &&
+           study_check_windows(r, room, study_map_value(r, value, "windows"));
 }
 
 /* ---- scene ---------------------------------------------------------------------------------- */
@@ -41,6 +42,29 @@ static bool read_scene_at(const study_reader *r, const yaml_node_t *value, void 
     return (s->at = study_read_places(r, value, &s->at_count)) != NULL;
 }
 
+/* One pattern, or a list of them. */
+static bool read_patterns(const study_reader *r, const yaml_node_t *value, const char ***out,
+                          int *count)
+{
+    if (value->type == YAML_SEQUENCE_NODE)
+        return (*out = study_read_list(r, value, sizeof(char *), study_read_text, count)) != NULL;
+    *out   = arena_new(r->a, const char *, r->err);
+    *count = 1;
+    return *out && study_read_text(r, value, *out);
+}
+
+static bool read_exterior(const study_reader *r, const yaml_node_t *value, void *record)
+{
+    study_scene *s = record;
+    return read_patterns(r, value, &s->exterior, &s->exterior_count);
+}
+
+static bool read_portals(const study_reader *r, const yaml_node_t *value, void *record)
+{
+    study_scene *s = record;
+    return read_patterns(r, value, &s->portals, &s->portal_count);
+}
+
 static bool read_scene(const study_reader *r, const yaml_node_t *value, void *record)
 {
     static const study_key table[] = {
@@ -49,8 +73,8 @@ static bool read_scene(const study_reader *r, const yaml_node_t *value, void *re
         { "lights", STUDY_OPTIONAL, study_read_switch, offsetof(study_scene, lights) },
         { "at", STUDY_OPTIONAL, read_scene_at, 0 },
         { "rotate", STUDY_OPTIONAL, study_read_number, offsetof(study_scene, rotate_deg) },
-        { "exterior", STUDY_NOT_YET },
-        { "portals", STUDY_NOT_YET },
+        { "exterior", STUDY_OPTIONAL, read_exterior, 0 },
+        { "portals", STUDY_OPTIONAL, read_portals, 0 },
     };
     static const study_keys keys = STUDY_KEYS("a scene", table);
     study_scene *s               = record;

@@ -128,7 +128,7 @@ TEST(what_is_wrong_in_a_study_is_told_with_its_place)
         { "lux4: 1\nroom: {size: [4, 3, 2], reflectence: 1}\n", "did you mean `reflectance`?" },
         { "lux4: 1\nroom: &r {size: *r}\n", "contains itself" },
         { "lux4: 1\nlux4: 1\n", "stands in line 1 already" },
-        { "lux4: 1\nsky: {model: clear}\n", "`clear` is not supported yet" },
+        { "lux4: 1\nsky: {model: cloudy}\n", "found `cloudy`" },
         { "lux4: 1\nvariants:\n  night: {room: 5}\n",
           "study.yaml:3:17: with the variant `night`: " },
         { ROOM "views: [{name: g, eye: [1, 1, 1], target: [2, 1, 1]}]\n", "name `g` is taken" },

@@ -13,7 +13,11 @@ static const char whole[] =
     "room: {size: [10, 6, 3], reflectance: {ceiling: 0.7, walls: [0.5, 0.4, 0.3], floor: 0.2}}\n"
     "scene:\n  - {file: 'office.glb', scale: 0x1, lights: on}\n  - {file: desk.glb, at: &a [[2, "
     "1.5, 0], [4, 1.5, 0]], rotate: 90}\n"
-    "sky: {model: none}\nmaintenance: 0.8\nluminaires:\n  - name: down\n    photometry: a.ies\n"
+    "sky: {model: cie, cie: {type: 12}, sun: disk, turbidity: 3, ground: [0.1, 0.2, 0.3], "
+    "horizontal: 5}\nsite: {place: 55.7558N 37.6173E, altitude: 150, zone: Europe/Moscow, north: "
+    "9}\n"
+    "when: {date: 2026-03-21..2026-06-21, from: \"08:00\", to: 18:00, step: 60, every: week}\n"
+    "maintenance: 0.8\nluminaires:\n  - name: down\n    photometry: a.ies\n"
     "    at: *a\n    color: 4000K\n    lumens: 3e3\n    group: g\n    aim_at: [3, 2, 0]\n"
     "  - {photometry: b.ldt, layout: {fill: room, z: 2.8, count: [2, 3]}}\n"
     "  - {photometry: b.ldt, layout: {from: [0, 0, 1], to: [1, 2, 1], count: 4}}\n"
@@ -35,7 +39,9 @@ static const char whole[] =
     "  - {name: c, on: ceiling, spacing: 2, quantity: semicylindrical, facing: [1, 0, 0]}\n"
     "views:\n  - {name: corner, eye: [0.2, 0.2, 1.6], target: [5, 3, 1], fov: 70, size: [64, 48]}\n"
     "accuracy: 2%\nvariants:\n  v: {sky: {model: none}, dimming: {g: ~}, room: {size: [9, 9, 9]}}\n"
-    "  w: {grids: [], lights: []}\n...\n";
+    "  w: {grids: [], lights: [], when: 2026-06-21T10:00+03:00, sky: {cie: ~, model: perez, "
+    "turbidity: ~, horizontal: ~, perez: {direct_normal: 500, diffuse_horizontal: 90}}}\n"
+    "  x: {when: ~, sky: {sun_at: {azimuth: 180, elevation: 60}}}\n...\n";
 
 /* Reads; if it is refused, the message must be one line that names the file. */
 static bool survives(const char *text, size_t size)

@@ -136,8 +136,9 @@ TEST(every_variant_is_checked_whether_it_is_chosen_or_not)
           "3:9: with the variant `low`: `height: 2` is not below the ceiling at 2 m" },
     };
     ALL_REFUSED(table, ERR_FORMAT);
-    assert_study_refused(NULL, "lux4: 1\nvariants: {a: {sky: {model: clear}}}", ERR_UNSUPPORTED,
-                         "2:29: with the variant `a`: `clear` is not supported yet");
+    assert_study_refused(NULL, "lux4: 1\nvariants: {a: {views: [{projection: fisheye}]}}",
+                         ERR_UNSUPPORTED,
+                         "2:38: with the variant `a`: `fisheye` is not supported yet");
 }
 
 TEST(a_study_must_be_good_without_its_variants)

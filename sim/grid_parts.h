@@ -1,0 +1,66 @@
+/* sim/grid_parts.h -- what the files of grid.h share: grid.c runs a grid, grid_sample.c finds what
+ * its sensors get.
+ */
+#ifndef SIM_GRID_PARTS_H
+#define SIM_GRID_PARTS_H
+
+#include "sim/accuracy.h"
+#include "sim/direct_sensor.h"
+#include "sim/grid.h"
+#include "sim/path.h"
+#include "sim/sun_seen.h"
+
+#include <stdatomic.h>
+
+/* Of accuracy_run(). First what is judged: all light as dimmed and, in a layered scene, the same
+ * undimmed, and of each layer; of a series instead all light of each moment. What of each of these
+ * (but not of FULL) is direct stands in the same order from `straight` on. */
+enum { SAMPLED, FULL, LAYERS };
+typedef struct grid_channels {
+    int judged;
+    int straight, straight_count;
+    int met;      /* what sees a reflecting surface */
+    int outside;  /* -1: not asked for; so are the next */
+    int electric; /* what is no daylight */
+    int count;
+} grid_channels;
+
+typedef struct thread_scratch {
+    direct_sensor *direct;
+    sun_seen *suns;
+    path_tracer *paths;
+    path_bundle bundle;
+    sensor_sum *sums;
+    float lamp_e[BUNDLE]; /* W/m^2 of each sample, and which lamp's it is */
+    int32_t lamp[BUNDLE];
+    float
+        sun_e[BUNDLE]; /* W/m^2, of each sample, beside what is known, and which sun's; -1: none */
+    int32_t sun[BUNDLE];
+    float *of_layer, *direct_of_layer; /* lx, of one sample, one a group */
+} thread_scratch;
+
+typedef struct grid_run_state {
+    const scene *s;
+    const run_options *o;
+    grid_result *r;
+    thread_scratch *threads;
+    int layers;            /* groups, if the scene is layered; else 0 */
+    int moments;           /* of a series; else 0 */
+    double *known, *bound; /* lx: of each layer, or of all; [layer * sensors + sensor] */
+    double *sun_known;     /* lx: of each sun, [sun * sensors + sensor]; and what of it is seen */
+    double *sun_share;
+    bool disks; /* some sun is more than a point */
+    grid_channels channels;
+    path_options paths;
+    atomic_bool lamps_left; /* some lamps take samples */
+    uint32_t seed;          /* of this grid */
+} grid_run_state;
+
+/* Of parallel_for(): sensors item * GRID_CHUNK and so on, whose known light is summed. */
+enum { GRID_CHUNK = 64 };
+void grid_sum_chunk(void *context, int item, int thread);
+
+/* Of accuracy_run(); context is a grid_run_state. */
+void grid_sample(void *context, int thread, const sample_id *ids, int count, float *values);
+
+#endif

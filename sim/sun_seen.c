@@ -1,0 +1,100 @@
+/* sim/sun_seen.c -- see sun_seen.h. */
+#include "sim/sun_seen.h"
+
+#include "core/color.h"
+#include "sim/direct.h"
+#include "sim/shadow.h"
+
+struct sun_seen {
+    const scene *s;
+    study_quantity quantity;
+    int64_t ray_count;
+    vray rays[SUN_PACKETS];
+    vmask asked[SUN_PACKETS], blocked[SUN_PACKETS];
+    vint spare[SUN_PACKETS];
+    vrgb e[SUN_PACKETS];
+    vpassed passed[SUN_PACKETS];
+};
+
+sun_seen *sun_seen_new(arena *a, const scene *s, study_quantity q, lux_error *err)
+{
+    sun_seen *w = arena_new(a, sun_seen, err);
+    if (w)
+        *w = (sun_seen){ .s = s, .quantity = q };
+    return w;
+}
+
+int64_t sun_rays(const sun_seen *w) { return w->ray_count; }
+
+/* Sets out the rays of packet k toward one sun, for the lanes given. */
+static void aim(sun_seen *w, int k, const vsurface *at, int sun, vfloat s, vfloat t, vmask lanes)
+{
+    vlight_sample of;
+    const light *l  = w->s->lights[scene_lamp_count(w->s) + sun];
+    vmask lit       = light_sample(l, &at->position, s, t, lanes, &of);
+    vfloat response = vsensor_response(w->quantity, &at->normal, &of.wi);
+    lit             = lit & (response > 0.0f);
+    vray ray        = direct_shadow_ray(at, &of.wi, of.dist);
+    w->e[k]         = vselect3(lit, vscale(of.e, response), w->e[k]);
+    w->asked[k]     = w->asked[k] | lit;
+
+    w->rays[k].origin    = vselect3(lit, ray.origin, w->rays[k].origin);
+    w->rays[k].direction = vselect3(lit, ray.direction, w->rays[k].direction);
+    w->rays[k].reach     = vselect(lit, ray.reach, w->rays[k].reach);
+}
+
+static void begin(sun_seen *w, int k)
+{
+    w->rays[k]  = (vray){ 0 };
+    w->asked[k] = (vmask){ 0 };
+    w->spare[k] = vsplat_int(0);
+    w->e[k]     = (vrgb){ 0 };
+}
+
+static void trace(sun_seen *w, int packets)
+{
+    w->ray_count += shadow_trace(w->s, w->rays, w->asked, w->spare, packets, RAYS_COHERENT,
+                                 w->blocked, w->passed);
+    for (int k = 0; k < packets; k++) {
+        w->asked[k] = w->asked[k] & ~w->blocked[k];
+        if (w->s->hollow)
+            w->e[k] = vmul(w->e[k], w->passed[k].share);
+    }
+}
+
+void sun_look(sun_seen *w, const vsurface *at, int sun, uint32_t seed, vuint sensor, vmask active,
+              vfloat *e, vfloat *open)
+{
+    bool disk  = light_has_extent(w->s->lights[scene_lamp_count(w->s) + sun]);
+    int rays   = disk ? SUN_RAYS : 1;
+    vuint set  = vhash_combine(vsplat_uint(hash_combine_u32(seed, (uint32_t)sun)), sensor);
+    vfloat all = { 0 }, unhidden = { 0 };
+    for (int j = 0; j < rays; j++) {
+        vsample4 u = vsobol4(vsplat_uint((uint32_t)j), set);
+        begin(w, j);
+        aim(w, j, at, sun, u.x, u.y, active);
+    }
+    trace(w, rays);
+    for (int j = 0; j < rays; j++) {
+        all      = all + vkeep(w->asked[j], vrgb_luminance(w->e[j]));
+        unhidden = unhidden + vkeep(w->asked[j], vsplat(1.0f));
+    }
+    *e    = all * (1.0f / (float)rays);
+    *open = unhidden * (1.0f / (float)rays);
+}
+
+void sun_ask(sun_seen *w, const vsurface *at, const vint *sun, const vsample4 *u,
+             const vmask *active, int packets, vfloat *e)
+{
+    for (int k = 0; k < packets; k++) {
+        begin(w, k);
+        for (vmask left = active[k]; vany(left);) {
+            int which;
+            vmask same = vtake_same(sun[k], &left, &which);
+            aim(w, k, &at[k], which, u[k].x, u[k].y, same);
+        }
+    }
+    trace(w, packets);
+    for (int k = 0; k < packets; k++)
+        e[k] = vkeep(w->asked[k], vrgb_luminance(w->e[k]));
+}

@@ -7,8 +7,6 @@
 TEST(every_key_of_the_contract_that_is_not_built_is_refused_by_name)
 {
     static const broken_study table[] = {
-        { "views: [{projection: fisheye}]", "2:22: `fisheye` is not supported yet" },
-        { "views: [{projection: panorama}]", "2:22: `panorama` is not supported yet" },
     };
     ALL_REFUSED(table, ERR_UNSUPPORTED);
     assert_study_refused(NULL, "lux4: 2\nnew: 3", ERR_UNSUPPORTED,

@@ -3,7 +3,7 @@
 
 #include "core/sampler.h"
 #include "tests/one_lane_sky.h"
-#include "tests/sky_twin.h"
+#include "tests/drawn_sky.h"
 #include "tests/test.h"
 
 #include <stdlib.h>

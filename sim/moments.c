@@ -263,11 +263,12 @@ static bool add_series(series *r, notices *n)
     qsort(r->list, (size_t)r->count, sizeof *r->list, by_time);
     if (r->skipped > 0)
         notice_add(n,
-                   "%s:%d:%d: clocks are put forward: %d time%s that they skip left out "
+                   "%s:%d:%d: clocks are put forward: %d time%s that they skip %s left out "
                    "(%04d-%02d-%02dT%02d:%02d)",
                    r->s->path, w->where.line, w->where.column, r->skipped,
-                   r->skipped == 1 ? " is" : "s are", r->first_skip.year, r->first_skip.month,
-                   r->first_skip.day, r->first_skip.hour, r->first_skip.minute);
+                   r->skipped == 1 ? "" : "s", r->skipped == 1 ? "is" : "are", r->first_skip.year,
+                   r->first_skip.month, r->first_skip.day, r->first_skip.hour,
+                   r->first_skip.minute);
     return r->count > 0 ||
            study_failed(r->s, w->where, r->err, ERR_ARGUMENT, "a series without a single moment");
 }

@@ -4,6 +4,8 @@
  * Portals only say where it is worth while to look: one too many, or too wide, costs samples, and
  * so does light by an opening that is none of them. Nothing is ever lost or counted twice by them.
  */
+#include "core/sampler.h"
+#include "core/warp.h"
 #include "sim/flat_pieces.h"
 #include "sim/room.h"
 #include "sim/scene_build.h"
@@ -126,33 +128,20 @@ static bool add_glazing(portal_work *w, int i)
 /* ---- inside and outside ---------------------------------------------------------------------- */
 
 /* The cosine-weighted share of what a side of a rectangle sees that nothing opaque hides. */
-static double open_share(const world *w, const flat_piece *p, double side)
+static double open_share(const world *w, const flat_piece *p, float side)
 {
-    const double off  = 1e-3; /* of its size, from the surface */
-    const double part = 0.9;  /* of it that is looked from: its very edge may lie in a wall */
-    const dvec3 n     = d3_scale(p->normal, side);
-    const dvec3 u = d3_scale(p->u, 1.0 / d3_length(p->u)), v = d3_cross(n, u);
-    const dvec3 from = d3_add(p->centre, d3_scale(n, off * d3_length(p->v)));
+    const float off  = 1e-3f; /* of its size, from the surface */
+    const float part = 1.8f;  /* of its half sides, all across: its very edge may lie in a wall */
+    vvec3 n          = vspread(v3_scale(d3_to_float(p->normal), side));
+    vvec3 u = vspread(d3_to_float(p->u)), v = vspread(d3_to_float(p->v));
+    vvec3 from = valong(vspread(d3_to_float(p->centre)), n, off * vmin(vlength(u), vlength(v)));
     vray rays[PACKETS];
     vmask active[PACKETS], blocked[PACKETS];
     for (int k = 0; k < PACKETS; k++) {
-        float x[6][LANES];
-        for (int i = 0; i < LANES; i++) {
-            /* Places by two fractions, directions along a spiral on the disk below the hemisphere
-             */
-            int number = k * LANES + i;
-            double a = number * 0.75487766624669276, b = number * 0.56984029099805327;
-            double r = sqrt((number + 0.5) / RAYS), turn = number * 2.39996322972865332;
-            double s = part * (2.0 * (a - floor(a)) - 1.0), t = part * (2.0 * (b - floor(b)) - 1.0);
-            dvec3 at = d3_add(from, d3_add(d3_scale(p->u, s), d3_scale(p->v, t)));
-            dvec3 d  = d3_add(d3_scale(n, sqrt(1.0 - r * r)),
-                              d3_add(d3_scale(u, r * cos(turn)), d3_scale(v, r * sin(turn))));
-            x[0][i] = (float)at.x, x[1][i] = (float)at.y, x[2][i] = (float)at.z;
-            x[3][i] = (float)d.x, x[4][i] = (float)d.y, x[5][i] = (float)d.z;
-        }
-        rays[k]   = (vray){ { vload(x[0]), vload(x[1]), vload(x[2]) },
-                            { vload(x[3]), vload(x[4]), vload(x[5]) },
-                            vsplat(INFINITY) };
+        vuint number = vunsigned(vlane_index() + k * LANES);
+        vsample4 q   = vsobol4(number, vsplat_uint(0));
+        vvec3 place  = vadd(vscale(u, part * (q.z - 0.5f)), vscale(v, part * (q.w - 0.5f)));
+        rays[k]   = (vray){ vadd(from, place), vwarp_cosine_about(n, q.x, q.y), vsplat(INFINITY) };
         active[k] = ALL_LANES;
     }
     world_any_hit(w, rays, active, NULL, PACKETS, RAYS_INCOHERENT, blocked);
@@ -165,7 +154,7 @@ static double open_share(const world *w, const flat_piece *p, double side)
 /* Turns a piece's normal to the side that sees the sky; false: both do, or none. */
 static bool look_out(const scene *s, flat_piece *p)
 {
-    double front = open_share(s->world, p, 1.0), back = open_share(s->world, p, -1.0);
+    double front = open_share(s->world, p, 1.0f), back = open_share(s->world, p, -1.0f);
     if (back > front)
         p->normal = d3_scale(p->normal, -1.0);
     return fmax(front, back) >= least_sky && fmin(front, back) <= most_inside * fmax(front, back);

@@ -1,7 +1,7 @@
 /* sky/portal.c -- see portal.h, and portal_table.h for what one portal does.
  *
  * Portals of one orientation stand together, since they share a frame and a table. A portal's
- * chance is its light times the largest cosine of its corners and its middle with the surface.
+ * chance is its light times the larger cosine of two places of it with the surface.
  */
 #include "sky/portal.h"
 
@@ -62,14 +62,13 @@ static vfloat cosine(vfloat x, vfloat y, const portal_view *v, const vvec3 *n)
     return (x * n->x + y * n->y + v->z * n->z) / vsqrt(x * x + y * y + v->z * v->z);
 }
 
-/* Of its corners and its middle with n; 1 where n is 0. */
+/* Of its middle and of the corner that lies farthest along n, which is above the horizon if any is;
+ * 1 where n is 0. */
 static vfloat highest(const portal_view *v, const vvec3 *n)
 {
-    vfloat x0 = v->x - v->half_x, x1 = v->x + v->half_x;
-    vfloat y0 = v->y - v->half_y, y1 = v->y + v->half_y;
-    vfloat low  = vmax(cosine(x0, y0, v, n), cosine(x1, y0, v, n));
-    vfloat high = vmax(cosine(x0, y1, v, n), cosine(x1, y1, v, n));
-    vfloat most = vmax(vmax(low, high), cosine(v->x, v->y, v, n));
+    vfloat x    = v->x + vcopysign(v->half_x, n->x);
+    vfloat y    = v->y + vcopysign(v->half_y, n->y);
+    vfloat most = vmax(cosine(x, y, v, n), cosine(v->x, v->y, v, n));
     vmask plain = (n->x == 0.0f) & (n->y == 0.0f) & (n->z == 0.0f);
     return vselect(plain, vsplat(1.0f), vmax(most, vsplat(0.0f)));
 }
@@ -92,14 +91,15 @@ static void add_chances(drawing *d, const portals *all, int which, const vvec3 *
         vmask in_front = active & (v.z > 0.0f);
         if (!vany(in_front))
             continue;
-        portal_box box = portal_table_box(&f->table, &v, in_front);
-        vfloat chance  = vkeep(box.seen, box.light * highest(&v, &normal));
+        portal_box box;
+        portal_table_box(&f->table, &v, in_front, &box);
+        vfloat chance = vkeep(box.seen, box.light * highest(&v, &normal));
 
         /* The new one is drawn with its share of all so far; what is left of pick goes on */
         vfloat total = d->total + chance;
-        vfloat share = vkeep(chance > 0.0f, chance / total);
-        vmask taken  = d->pick < share;
-        vfloat left  = vselect(taken, d->pick / share, (d->pick - share) / (1.0f - share));
+        vfloat at    = d->pick * total;
+        vmask taken  = at < chance;
+        vfloat left  = vselect(taken, at, at - chance) / vselect(taken, chance, d->total);
         d->pick      = vselect(chance > 0.0f, vmin(left, vsplat(0x1.fffffep-1f)), d->pick);
         d->portal    = vselect_int(taken, vsplat_int(i), d->portal);
         d->total     = total;
@@ -130,11 +130,12 @@ static vfloat density(const portals *all, const vvec3 *p, const vvec3 *n, const 
             vmask through = active & crosses(&v, &w);
             if (!vany(through))
                 continue;
-            portal_box box = portal_table_box(&f->table, &v, through);
-            vfloat chance  = box.light * highest(&v, &normal);
-            vmask drawn    = box.seen & (chance > 0.0f);
-            vfloat of_one  = portal_table_density(&f->table, &box, &w, drawn);
-            sum            = sum + vkeep(drawn, chance / total * of_one);
+            portal_box box;
+            portal_table_box(&f->table, &v, through, &box);
+            vfloat chance = box.light * highest(&v, &normal);
+            vmask drawn   = box.seen & (chance > 0.0f);
+            vfloat of_one = portal_table_density(&f->table, &box, &w, drawn);
+            sum           = sum + vkeep(drawn, chance / total * of_one);
         }
     }
     return sum;
@@ -147,11 +148,12 @@ static vvec3 direction(const portals *all, const placed *d, const vvec3 *p, vflo
     const facade *f = &all->facades[d->facade];
     vvec3 place     = turn(&f->table, p);
     portal_view v   = look(d, &place);
-    portal_box box  = portal_table_box(&f->table, &v, active);
-    vvec3 w         = portal_table_draw(&f->table, &box, s, t);
-    vvec3 wi        = turn_back(&f->table, &w);
-    wi              = vnormalize(wi);
-    w               = turn(&f->table, &wi);
+    portal_box box;
+    portal_table_box(&f->table, &v, active, &box);
+    vvec3 w  = portal_table_draw(&f->table, &box, s, t);
+    vvec3 wi = turn_back(&f->table, &w);
+    wi       = vnormalize(wi);
+    w        = turn(&f->table, &wi);
 
     /* Where rounding took it past the frame: to the middle of it */
     vmask past = box.seen & ~crosses(&v, &w);
@@ -205,8 +207,11 @@ vmask portals_cross(const portals *all, const vvec3 *p, const vvec3 *wi, vmask a
         for (int k = f->first; k < f->first + f->count && vany(out & ~found); k++) {
             portal_view v = look(&all->all[k], &place);
             vmask through = out & ~found & crosses(&v, &w);
-            if (vany(through))
-                found = found | portal_table_box(&f->table, &v, through).seen;
+            if (!vany(through))
+                continue;
+            portal_box box;
+            portal_table_box(&f->table, &v, through, &box);
+            found = found | box.seen;
         }
     }
     return found;

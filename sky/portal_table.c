@@ -22,15 +22,16 @@ static vfloat half_tangent(vfloat x, vfloat z, vfloat r) { return x / (z + r); }
 
 /* From x - half to x + half. What lies between both ends is worked out by itself: of ends far away
  * the difference has few digits. */
-static portal_span span_of(vfloat x, vfloat half, vfloat z, int cells, vmask *wide)
+static inline void span_of(vfloat x, vfloat half, vfloat z, int cells, vmask *wide, portal_span *s)
 {
     vfloat x0 = x - half, x1 = x + half;
     vfloat r0 = vsqrt(x0 * x0 + z * z), r1 = vsqrt(x1 * x1 + z * z);
-    vfloat a0 = half_tangent(x0, z, r0);
-    vfloat a1 = half_tangent(x1, z, r1);
-    vfloat cross =
+    vfloat apart =
         vselect(x0 * x1 > 0.0f, 4.0f * half * x * z * z / (x1 * r0 + x0 * r1), x1 * r0 - x0 * r1);
-    vfloat width = (2.0f * half * z + cross) / ((z + r0) * (z + r1));
+    vfloat by    = 1.0f / ((z + r0) * (z + r1));
+    vfloat a0    = x0 * (z + r1) * by;
+    vfloat a1    = x1 * (z + r0) * by;
+    vfloat width = (2.0f * half * z + apart) * by;
 
     const float scale = 0.5f * (float)cells;
     vfloat begin = scale + scale * a0, end = scale + scale * a1;
@@ -39,15 +40,15 @@ static portal_span span_of(vfloat x, vfloat half, vfloat z, int cells, vmask *wi
     vint last  = vto_int(vkeep(*wide, vmin(end, vsplat((float)(cells - 1)))));
     vmask one  = first == last;
 
-    portal_span s = { .low = a0, .width = width * scale };
-    s.edge[0]     = first;
-    s.edge[1]     = first + 1;
-    s.edge[2]     = vselect_int(one, first + 1, last);
-    s.edge[3]     = vselect_int(one, first + 1, last + 1);
-    s.last        = vkeep(~one, end - vto_float(last));
-    vfloat before = s.width - s.last - vto_float(s.edge[2] - s.edge[1]);
-    s.first       = vmax(before, vsplat(0.0f));
-    return s;
+    s->low        = a0;
+    s->width      = width * scale;
+    s->edge[0]    = first;
+    s->edge[1]    = first + 1;
+    s->edge[2]    = vselect_int(one, first + 1, last);
+    s->edge[3]    = vselect_int(one, first + 1, last + 1);
+    s->last       = vkeep(~one, end - vto_float(last));
+    vfloat before = s->width - s->last - vto_float(s->edge[2] - s->edge[1]);
+    s->first      = vmax(before, vsplat(0.0f));
 }
 
 static vint sum_at(const portal_table *t, vint i, vint j)
@@ -55,20 +56,19 @@ static vint sum_at(const portal_table *t, vint i, vint j)
     return vgather_int(t->sums, j * (t->cells + 1) + i);
 }
 
-portal_box portal_table_box(const portal_table *t, const portal_view *v, vmask active)
+void portal_table_box(const portal_table *t, const portal_view *v, vmask active, portal_box *box)
 {
-    portal_box box = { .seen = active & (v->z > 0.0f) };
-    box.a          = span_of(v->x, v->half_x, v->z, t->cells, &box.seen);
-    box.b          = span_of(v->y, v->half_y, v->z, t->cells, &box.seen);
+    vmask seen = active & (v->z > 0.0f);
+    span_of(v->x, v->half_x, v->z, t->cells, &seen, &box->a);
+    span_of(v->y, v->half_y, v->z, t->cells, &seen, &box->b);
 
     /* All that its cells hold, by how much of them it covers */
-    vint i0 = vkeep_int(box.seen, box.a.edge[0]), i1 = vkeep_int(box.seen, box.a.edge[3]);
-    vint j0 = vkeep_int(box.seen, box.b.edge[0]), j1 = vkeep_int(box.seen, box.b.edge[3]);
+    vint i0 = vkeep_int(seen, box->a.edge[0]), i1 = vkeep_int(seen, box->a.edge[3]);
+    vint j0 = vkeep_int(seen, box->b.edge[0]), j1 = vkeep_int(seen, box->b.edge[3]);
     vint count = (sum_at(t, i1, j1) - sum_at(t, i0, j1)) - (sum_at(t, i1, j0) - sum_at(t, i0, j0));
-    vfloat covered = box.a.width * box.b.width / vto_float((i1 - i0) * (j1 - j0));
-    box.light      = vkeep(box.seen, t->unit * covered * vto_float(count));
-    box.seen       = box.seen & (box.light > 0.0f);
-    return box;
+    vfloat covered = box->a.width * box->b.width / (vto_float(i1 - i0) * vto_float(j1 - j0));
+    box->light     = vkeep(seen, t->unit * covered * vto_float(count));
+    box->seen      = seen & (box->light > 0.0f);
 }
 
 /* The sums of one step of b, at the four edges along a. */
@@ -264,26 +264,36 @@ static int cell_of(double x, double z, int cells)
     return i < 0 ? 0 : i < cells ? i : cells - 1;
 }
 
-/* Adds the light of bright cells of the sky, W/m^2, where they are. */
-static void add_bright(double *light, const portal_table *t, const brightness *bright)
+/* Adds light from a direction, W/m^2 of so many sr, to the cell that holds it. None that is smaller
+ * than the source: there the middle of the cell tells. */
+static void add_light(double *light, const double *angles, const portal_table *t,
+                      const double from[3], double luminance, double angle)
+{
+    double ahead = component(t->outward, from[0], from[1], from[2]);
+    if (ahead <= 0.0)
+        return;
+    int i     = cell_of(component(t->u, from[0], from[1], from[2]), ahead, t->cells);
+    int j     = cell_of(component(t->v, from[0], from[1], from[2]), ahead, t->cells);
+    size_t at = (size_t)j * (size_t)t->cells + (size_t)i;
+    if (angle < angles[at])
+        light[at] += luminance * angle;
+}
+
+static void add_bright(double *light, const double *angles, const portal_table *t,
+                       const brightness *bright)
 {
     for (int row = 0; row < bright->rows; row++) {
         double top = M_PI * row / bright->rows, bottom = M_PI * (row + 1.0) / bright->rows;
-        double angle  = 2.0 * M_PI * (cos(top) - cos(bottom)) / bright->columns;
-        double middle = 0.5 * (top + bottom), r = sin(middle), up = cos(middle);
+        double angle        = 2.0 * M_PI * (cos(top) - cos(bottom)) / bright->columns;
+        double middle       = 0.5 * (top + bottom);
+        const float *of_row = bright->luminance + (size_t)row * (size_t)bright->columns;
         for (int column = 0; column < bright->columns; column++) {
-            double y =
-                (double)bright->luminance[(size_t)row * (size_t)bright->columns + (size_t)column];
-            if (y <= BRIGHT * bright->mean)
-                continue;
             double azimuth = (2.0 * (column + 0.5) / bright->columns - 1.0) * M_PI;
-            double east = r * sin(azimuth), north = r * cos(azimuth);
-            double ahead = component(t->outward, east, north, up);
-            if (ahead <= 0.0)
-                continue;
-            int i = cell_of(component(t->u, east, north, up), ahead, t->cells);
-            int j = cell_of(component(t->v, east, north, up), ahead, t->cells);
-            light[(size_t)j * (size_t)t->cells + (size_t)i] += y * angle;
+            if ((double)of_row[column] > BRIGHT * bright->mean)
+                add_light(light, angles, t,
+                          (double[]){ sin(middle) * sin(azimuth), sin(middle) * cos(azimuth),
+                                      cos(middle) },
+                          (double)of_row[column], angle);
         }
     }
 }
@@ -331,11 +341,11 @@ bool portal_table_fill(arena *a, portal_table *t, const brightness *bright, lux_
     double *light  = sums ? arena_array(&scratch, double, 2 * n * n, err) : NULL;
     if (light) {
         double *angle = light + n * n;
-        add_bright(light, t, bright);
+        for (size_t at = 0; at < n * n; at++)
+            angle[at] = cell_angle((int)(at % n), (int)(at / n), t->cells);
+        add_bright(light, angle, t, bright);
         for (size_t at = 0; at < n * n; at++) {
-            int i = (int)(at % n), j = (int)(at / n);
-            double y  = luminance_at(t, bright, i, j) + FLOOR * bright->mean;
-            angle[at] = cell_angle(i, j, t->cells);
+            double y = luminance_at(t, bright, (int)(at % n), (int)(at / n)) + FLOOR * bright->mean;
             light[at] = fmax(light[at], angle[at] * (bright->mean > 0.0 ? y : 1.0));
         }
         sum_up(t, sums, light, angle, bright->mean);

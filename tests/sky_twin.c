@@ -13,8 +13,9 @@ double sky_twin_luminance(const sky_twin *s, const double w[3])
     case TWIN_SMOOTH:
         return 2.0 + w[0] + 0.5 * w[2];
     case TWIN_SUNNY:
-        return w[2] > 0.0 ? 1.0 + 1000.0 * exp(50.0 * (0.6 * w[0] + 0.64 * w[1] + 0.48 * w[2] - 1.0))
-                          : 0.0;
+        return w[2] > 0.0
+                   ? 1.0 + 1000.0 * exp(50.0 * (0.6 * w[0] + 0.64 * w[1] + 0.48 * w[2] - 1.0))
+                   : 0.0;
     default:;
         const int columns = s->base.columns, rows = s->base.rows;
         int column = (int)((atan2(w[0], w[1]) / M_PI + 1.0) * 0.5 * columns);

@@ -27,7 +27,7 @@ double sky_twin_luminance(const sky_twin *s, const double w[3]);
 /* Even numbers in [0, 1), multiples of 2^-24. */
 static inline double twin_even(uint32_t *state)
 {
-    *state = *state * 1664525u + 1013904223u;
+    *state     = *state * 1664525u + 1013904223u;
     uint32_t a = *state;
     a          = (a ^ (a >> 16)) * 0x7feb352d;
     a          = (a ^ (a >> 15)) * 0x846ca68b;

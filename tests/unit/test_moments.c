@@ -174,13 +174,6 @@ TEST(there_are_ten_thousand_moments_and_no_more)
     assert_string_equal(err.text, "job/office.yaml:4:7: a series of more than 10000 moments");
 }
 
-TEST(a_series_beyond_what_the_sun_is_known_for_names_the_line)
-{
-    int count;
-    assert_null(series(GREENWICH, "date: 1899-12-30..1900-01-02, from: 12:00", &count));
-    assert_int_equal(strncmp(err.text, "job/office.yaml:4:7: ", 21), 0);
-}
-
 TEST(a_single_time_is_a_series_of_one)
 {
     int count;
@@ -362,7 +355,6 @@ int main(void)
         WHOLE(months_without_the_day_are_left_out_and_noticed),
         WHOLE(steps_that_are_no_doubles_meet_the_last_time),
         WHOLE(there_are_ten_thousand_moments_and_no_more),
-        WHOLE(a_series_beyond_what_the_sun_is_known_for_names_the_line),
         WHOLE(a_single_time_is_a_series_of_one),
         WHOLE(the_sun_is_where_sun_at_puts_it_by_true_north),
         WHOLE(air_lifts_a_low_sun),

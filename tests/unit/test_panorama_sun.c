@@ -267,13 +267,13 @@ TEST(the_suns_of_captured_panoramas_are_found_and_nothing_else)
         double elevation, azimuth; /* deg; by eye, to 2 pixels; NAN: none */
         double pixel;
     } file[] = {
-        { "blender__courtyard.exr", (double)NAN, 0, 0.35 }, /* the sun behind a roof */
+        { "blender__courtyard.exr", (double)NAN, 0, 0.35 }, /* in the shade */
         { "blender__studio.exr", (double)NAN, 0, 0.35 },    /* lamps */
         { "blender__sunrise.exr", 8.1, 35.9, 0.35 },        /* over a field */
-        { "c-ray__rooitou_park_1k.hdr", 10.5, 36.0, 0.35 }, /* between trees */
+        { "c-ray__rooitou_park_1k.hdr", 10.5, 36.0, 0.35 }, /* over a lawn */
         { "pmndrs__lobby.exr", (double)NAN, 0, 0.7 },       /* lamps */
-        { "pmndrs__night.exr", (double)NAN, 0, 0.7 },       /* street lights */
-        { "pmndrs__sky.exr", 47.9, 34.3, 0.7 },             /* at noon */
+        { "pmndrs__night.exr", (double)NAN, 0, 0.7 },       /* stars */
+        { "pmndrs__sky.exr", 47.9, 34.3, 0.7 },             /* between clouds */
         { "pmndrs__studio.exr", (double)NAN, 0, 0.7 },      /* a soft box */
         { "pmndrs__sunset.exr", (double)NAN, 0, 0.7 },      /* a rest of it, 1 % of all light */
     };

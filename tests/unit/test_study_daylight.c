@@ -177,6 +177,8 @@ TEST(each_key_of_a_time_is_checked_where_it_stands)
     assert_refused_at(L "when: 2026-02-29T10:00\n", "s.yaml:2:7: ");
     assert_refused_at(L "when: 2026-06-21T24:00\n", "s.yaml:2:7: ");
     assert_refused_at(L "when: 2026-06-30T23:59:60Z\n", "s.yaml:2:7: ");
+    assert_refused_at(L "when: {date: 1899-12-30..1900-01-02, from: 12:00}\n",
+                      "s.yaml:2:14: date: ");
     assert_refused_at(L "when: noon\n", "s.yaml:2:7: ");
     assert_refused_at(L "when: {date: 2026-02-29, from: 08:00}\n", "s.yaml:2:14: date: ");
     assert_refused_at(L "when: {date: 2026-02-01.., from: 08:00}\n", "s.yaml:2:14: date: ");

@@ -70,10 +70,11 @@ static bool read_place(const sun_line *l, sun_question *out, lux_error *err)
         return false;
     if (!isnan(l->altitude_m))
         out->at.altitude_m = l->altitude_m;
-    sun_air given  = { .pressure_hpa = l->pressure_hpa, .temperature_c = l->temperature_c };
-    out->air       = sun_air_standard(out->at.altitude_m, &given);
-    out->air_given = !isnan(given.pressure_hpa) && !isnan(given.temperature_c);
-    out->turbidity = isnan(l->turbidity) ? 3.0 : l->turbidity;
+    sun_air given          = { .pressure_hpa = l->pressure_hpa, .temperature_c = l->temperature_c };
+    out->air               = sun_air_standard(out->at.altitude_m, &given);
+    out->pressure_given    = !isnan(given.pressure_hpa);
+    out->temperature_given = !isnan(given.temperature_c);
+    out->turbidity         = isnan(l->turbidity) ? 3.0 : l->turbidity;
     return true;
 }
 

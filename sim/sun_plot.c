@@ -165,7 +165,8 @@ static sun_point toward(const sun_point *from, double dx, double dy, double px)
     return (sun_point){ .x = from->x + px * dx / length, .y = from->y + px * dy / length };
 }
 
-/* Beyond the summer's end of the line; where that is down, above what there is of it. */
+/* Beyond the summer's end of the line; where that is down, or so near the rim that it would stand
+ * in the band, above what there is of it. */
 static void label_hour(FILE *out, const sun_diagram *d, int hour)
 {
     static const double PX = 11.0, LEAST_DEG = 1.0;
@@ -176,9 +177,9 @@ static void label_hour(FILE *out, const sun_diagram *d, int hour)
         top = p[i].elevation_deg > top->elevation_deg ? &p[i] : top;
     if (top->elevation_deg < LEAST_DEG)
         return;
-    sun_point at = sun_point_up(summer)
-                       ? toward(summer, summer->x - spring->x, summer->y - spring->y, PX)
-                       : toward(top, CENTRE_X - top->x, CENTRE_Y - top->y, PX);
+    sun_point at = toward(summer, summer->x - spring->x, summer->y - spring->y, PX);
+    if (!sun_point_up(summer) || hypot(at.x - CENTRE_X, at.y - CENTRE_Y) > RADIUS - PX)
+        at = toward(top, CENTRE_X - top->x, CENTRE_Y - top->y, PX);
     char text[64];
     snprintf(text, sizeof text, "<tspan font-weight=\"bold\">%d</tspan>", hour);
     draw_label(out, at, 11.0, "#303030", text);

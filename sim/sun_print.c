@@ -30,9 +30,9 @@ void sun_site_print(char out[SUN_SITE_TEXT], const site *at)
              at->longitude_deg < 0.0 ? 'W' : 'E');
 }
 
-void sun_clock_print(char out[SUN_CLOCK_TEXT], const clock_zone *zone, double moment)
+void sun_clock_print(char out[SUN_CLOCK_TEXT], const clock_zone *zone, double at)
 {
-    double minute = 60.0 * floor(moment / 60.0 + 0.5);
+    double minute = 60.0 * floor(at / 60.0 + 0.5);
     civil_time t  = clock_local(zone, minute);
     char offset[SUN_OFFSET_TEXT];
     sun_offset_print(offset, clock_offset(zone, minute));
@@ -61,8 +61,9 @@ void sun_number(FILE *out, const char *label, int digits, double value, const ch
 void sun_print_air(FILE *out, const sun_question *q)
 {
     char text[80];
-    snprintf(text, sizeof text, "%.2f hPa, %.1f C%s", q->air.pressure_hpa, q->air.temperature_c,
-             q->air_given ? "" : ", where not given of the standard atmosphere");
+    snprintf(text, sizeof text, "%.2f hPa%s, %.1f C%s", q->air.pressure_hpa,
+             q->pressure_given ? "" : " (standard)", q->air.temperature_c,
+             q->temperature_given ? "" : " (standard)");
     sun_words(out, "air", text, "");
 }
 
@@ -76,9 +77,9 @@ void sun_print_place(FILE *out, const sun_question *q)
     sun_words(out, "clocks", q->zone_name, "");
 }
 
-void sun_print_notes(FILE *out, const sun_question *q, bool light)
+void sun_print_notes(FILE *out, const sun_question *q, bool lit)
 {
-    if (light)
+    if (lit)
         fprintf(out, "Direct normal illuminance: clear sky, %s, Linke turbidity %g.\n",
                 sky_sun_formula(), q->turbidity);
     fputs("Sunrise and sunset: the upper limb at the level horizon, air of 34' refraction.\n"
@@ -86,15 +87,15 @@ void sun_print_notes(FILE *out, const sun_question *q, bool light)
           out);
 }
 
-static void print_event(FILE *out, const char *label, const sun_question *q, double moment,
+static void print_event(FILE *out, const char *label, const sun_question *q, double at,
                         const char *note)
 {
     char text[CLOCK_TEXT];
-    if (isnan(moment)) {
+    if (isnan(at)) {
         sun_words(out, label, "none on this date", "");
         return;
     }
-    clock_print(text, q->zone, 60.0 * floor(moment / 60.0 + 0.5));
+    clock_print(text, q->zone, 60.0 * floor(at / 60.0 + 0.5));
     sun_words(out, label, text, note);
 }
 
@@ -126,14 +127,14 @@ void sun_json_number(FILE *out, const char *key, double value)
         fprintf(out, "\"%s\":null,", key);
 }
 
-void sun_json_moment(FILE *out, const char *key, const clock_zone *zone, double moment)
+void sun_json_moment(FILE *out, const char *key, const clock_zone *zone, double at)
 {
     char text[CLOCK_TEXT];
-    if (isnan(moment)) {
+    if (isnan(at)) {
         fprintf(out, "\"%s\":null,", key);
         return;
     }
-    clock_print(text, zone, moment);
+    clock_print(text, zone, at);
     fprintf(out, "\"%s\":\"%s\",", key, text);
 }
 
@@ -163,14 +164,14 @@ void sun_json_place(FILE *out, const sun_question *q, const sun_place *s)
     fprintf(out, "\"direct_normal_lx\":%.6g", sun_direct_lx(q, s));
 }
 
-void sun_json_site(FILE *out, const sun_question *q, bool light)
+void sun_json_site(FILE *out, const sun_question *q, bool lit)
 {
     sun_json_number(out, "latitude_deg", q->at.latitude_deg);
     sun_json_number(out, "longitude_deg", q->at.longitude_deg);
     sun_json_number(out, "altitude_m", q->at.altitude_m);
     fputs("\"zone\":", out);
     json_string(out, q->zone_name);
-    if (!light)
+    if (!lit)
         return;
     fputc(',', out);
     sun_json_number(out, "pressure_hpa", q->air.pressure_hpa);

@@ -13,9 +13,9 @@
 typedef struct sun_question {
     const char *place; /* as the user wrote it */
     site at;
-    sun_air air;            /* nothing left to be assumed: no NAN */
-    bool air_given;         /* both of it, by the user */
-    const clock_zone *zone; /* whose clocks are shown */
+    sun_air air;                            /* nothing left to be assumed: no NAN */
+    bool pressure_given, temperature_given; /* else those of the standard atmosphere */
+    const clock_zone *zone;                 /* whose clocks are shown */
     const char *zone_name;
     double turbidity; /* Linke's, [1, 20] */
     double moment;    /* the one asked for, if has_moment */

@@ -19,8 +19,8 @@ void sun_hours_print(char out[SUN_HOURS_TEXT], double hours);
 void sun_words(FILE *out, const char *label, const char *value, const char *note);
 void sun_number(FILE *out, const char *label, int digits, double value, const char *note);
 
-/* Lines: place and clocks; air; sunrise, transit, sunset, day length; how all is meant, with `lit`
- * too. */
+/* Lines: place and clocks; air; sunrise, transit, sunset, day length; how all is meant (`lit`:
+ * of the light, too). */
 void sun_print_place(FILE *out, const sun_question *q);
 void sun_print_air(FILE *out, const sun_question *q);
 void sun_print_events(FILE *out, const sun_question *q, const sun_day *d);

@@ -32,11 +32,11 @@ sun_point sun_diagram_rim(const sun_diagram *d, const sun_point *a, const sun_po
     return sun_diagram_point(d, sun_diagram_azimuth(d, &p), d->radius);
 }
 
-static bool find_point(const sun_diagram *d, double moment, sun_point *out, lux_error *err)
+static bool find_point(sun_diagram *d, double moment, sun_point *out, lux_error *err)
 {
     static const double LOWEST_DEG = -60.0; /* the nadir is infinitely far off; cut off anyway */
     sun_place s;
-    if (!sun_at(&d->q->at, &d->q->air, moment, &s, err))
+    if (!sun_at_next(&d->series, &d->q->at, &d->q->air, moment, &s, err))
         return false;
     double elevation   = fmax(s.apparent_elevation_deg, LOWEST_DEG);
     *out               = sun_diagram_point(d, s.azimuth_deg, sun_diagram_radius(d, elevation));
@@ -68,7 +68,7 @@ static double half_past(const sun_diagram *d, double moment)
 
 /* ---- lines ----------------------------------------------------------------------------------- */
 
-static bool find_day(const sun_diagram *d, double from, sun_point p[SUN_DAY_POINTS], lux_error *err)
+static bool find_day(sun_diagram *d, double from, sun_point p[SUN_DAY_POINTS], lux_error *err)
 {
     for (int i = 0; i < SUN_DAY_POINTS; i++)
         if (!find_point(d, from + DAY_S * i / (SUN_DAY_POINTS - 1), &p[i], err))
@@ -90,13 +90,17 @@ static bool find_days(sun_diagram *d, lux_error *err)
     return !d->q->has_date || find_day(d, clock_hour(d, date->month, date->day, 0.0), d->date, err);
 }
 
-static bool find_hour(const sun_diagram *d, int hour, sun_point p[SUN_HOUR_POINTS], lux_error *err)
+/* Day by day: the sun's series has then little to find anew. */
+static bool find_hours(sun_diagram *d, lux_error *err)
 {
-    double first = clock_hour(d, 1, 2, hour);
     for (int i = 0; i + 1 < SUN_HOUR_POINTS; i++)
-        if (!find_point(d, first + DAY_S * SUN_HOUR_STEP * i, &p[i], err))
-            return false;
-    p[SUN_HOUR_POINTS - 1] = p[0];
+        for (int hour = 0; hour < 24; hour++) {
+            double at = clock_hour(d, 1, 2, hour) + DAY_S * SUN_HOUR_STEP * i;
+            if (!find_point(d, at, &d->hours[hour][i], err))
+                return false;
+        }
+    for (int hour = 0; hour < 24; hour++)
+        d->hours[hour][SUN_HOUR_POINTS - 1] = d->hours[hour][0];
     return true;
 }
 
@@ -133,9 +137,6 @@ bool sun_diagram_find(sun_diagram *d, lux_error *err)
     const sun_question *q = d->q;
     d->december           = q->at.latitude_deg < 0.0;
     find_offset(d);
-    for (int hour = 0; hour < 24; hour++)
-        if (!find_hour(d, hour, d->hours[hour], err))
-            return false;
-    return find_days(d, err) && find_spare(d, err) &&
+    return find_hours(d, err) && find_days(d, err) && find_spare(d, err) &&
            (!q->has_moment || sun_at(&q->at, &q->air, q->moment, &d->sun, err));
 }

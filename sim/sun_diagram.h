@@ -39,6 +39,7 @@ typedef struct sun_diagram {
     sun_point hours[24][SUN_HOUR_POINTS];
     sun_point names[SUN_PATHS]; /* on the days' lines, between two hours' */
     sun_place sun;              /* at the moment, if the question has one */
+    sun_series series;          /* while it is found */
 } sun_diagram;
 
 /* Fills all behind q, x, y and radius. False, with *err, for what sun_at() refuses. */

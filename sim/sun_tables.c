@@ -15,7 +15,8 @@ typedef struct sun_hours {
 
 static bool find_hours(const sun_question *q, sun_hours *h, lux_error *err)
 {
-    h->count = 0;
+    sun_series series = { 0 };
+    h->count          = 0;
     for (int hour = 0; hour < 24; hour++) {
         civil_time t = {
             .year = q->date.year, .month = q->date.month, .day = q->date.day, .hour = hour
@@ -24,7 +25,7 @@ static bool find_hours(const sun_question *q, sun_hours *h, lux_error *err)
         int times = clock_moments(q->zone, &t, shown);
         for (int i = 0; i < times; i++, h->count++) {
             h->moment[h->count] = shown[i];
-            if (!sun_at(&q->at, &q->air, shown[i], &h->place[h->count], err))
+            if (!sun_at_next(&series, &q->at, &q->air, shown[i], &h->place[h->count], err))
                 return false;
         }
     }
@@ -126,25 +127,25 @@ static bool find_days(const sun_question *q, sun_days *y, lux_error *err)
     return true;
 }
 
-static void print_cell(FILE *out, const sun_question *q, const sun_day *d, double moment)
+static void print_cell(FILE *out, const sun_question *q, double moment, const char *without)
 {
     char text[SUN_CLOCK_TEXT];
-    if (!isnan(moment)) {
+    if (!isnan(moment))
         sun_clock_print(text, q->zone, moment);
-        fprintf(out, "  %-11s", text);
-    } else {
-        fprintf(out, "  %-11s", d->always_up ? "up all day" : d->always_down ? "down" : "none");
-    }
+    fprintf(out, "  %-11s", isnan(moment) ? without : text);
 }
 
 static void print_row(FILE *out, const sun_question *q, const civil_time *date, const sun_day *d)
 {
-    int minutes = (int)lround(d->length_h * 60.0);
+    int minutes   = (int)lround(d->length_h * 60.0);
+    char noon[24] = "-";
+    if (!isnan(d->transit_elevation_deg))
+        snprintf(noon, sizeof noon, "%.2f", d->transit_elevation_deg);
     fprintf(out, "  %04d-%02d-%02d", date->year, date->month, date->day);
-    print_cell(out, q, d, d->sunrise);
-    print_cell(out, q, d, d->transit);
-    print_cell(out, q, d, d->sunset);
-    fprintf(out, "  %2d h %02d min  %8.2f\n", minutes / 60, minutes % 60, d->transit_elevation_deg);
+    print_cell(out, q, d->sunrise, d->always_up ? "up all day" : d->always_down ? "down" : "none");
+    print_cell(out, q, d->transit, "none");
+    print_cell(out, q, d->sunset, d->always_up ? "up all day" : d->always_down ? "down" : "none");
+    fprintf(out, "  %2d h %02d min  %8s\n", minutes / 60, minutes % 60, noon);
 }
 
 static void print_year(FILE *out, const sun_question *q, const sun_days *y)

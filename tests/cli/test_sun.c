@@ -69,7 +69,7 @@ TEST(the_worked_example_of_nrel_is_met)
     assert_number(&r, "declination_deg", -9.31434, 0.001);
     assert_number(&r, "equation_of_time_min", 14.64, 0.01);
     assert_number(&r, "distance_au", 0.9965422974, 1e-5);
-    assert_number(&r, "diameter_deg", 2.0 * 0.26667, 0.003); /* 0.533 at 1 au, less far here */
+    assert_number(&r, "diameter_deg", 0.534754, 1e-5); /* 2 * 695,700 km (IAU 2015), so far off */
     /* Apparent solar time is the hour angle, 11.10590 degrees, beyond noon: 12:44:25 */
     assert_json(r.out, "solar_time", "\"12:44:2");
     /* 900 hPa: pvlib's test_solarposition.py */
@@ -102,8 +102,10 @@ TEST(other_places_are_as_published)
     program_free(&r);
 }
 
-/* NREL's SPA web page (through pvlib's tests), to the second. Ours sees the sun from the ground and
- * not from the Earth's centre: 8.8" lower, a second later or earlier; and whole seconds. */
+/* NREL's SPA web page (through pvlib's tests), to the second; it counts days of UT, so that a
+ * sunset after 24h UT, given for August 2, is that of August 1 on clocks there. 0: not given. Ours
+ * sees the sun from the ground and not from the Earth's centre: 8.8" lower, a second later or
+ * earlier; and whole seconds. */
 TEST(sunrise_and_sunset_are_as_published)
 {
     static const struct day {
@@ -111,7 +113,8 @@ TEST(sunrise_and_sunset_are_as_published)
         double rise, transit, set; /* h min s as hhmmss */
     } days[] = {
         { "39.742476 -105.1786", "-07:00", "2015-01-02", 72155, 120445, 164743 },
-        { "39.742476 -105.1786", "-07:00", "2015-08-02", 50027, 120658, 191358 },
+        { "39.742476 -105.1786", "-07:00", "2015-08-02", 50027, 120658, 0 },
+        { "39.742476 -105.1786", "-07:00", "2015-08-01", 0, 0, 191358 },
         { "-35 0", "UTC", "1996-07-05", 70815, 120436, 170104 },
         { "-35 0", "UTC", "2004-12-04", 43857, 115022, 190203 },
     };
@@ -127,7 +130,7 @@ TEST(sunrise_and_sunset_are_as_published)
             int hms     = (int)clock[k];
             double want = hms / 10000 * 3600.0 + hms / 100 % 100 * 60.0 + hms % 100;
             double got  = seconds_at(r.out, at[k], d->date);
-            if (!(fabs(got - want) <= SECONDS))
+            if (hms && !(fabs(got - want) <= SECONDS))
                 fail_msg("%s of %s at %s is %g s off", at[k], d->date, d->place, got - want);
         }
     }
@@ -153,10 +156,10 @@ TEST(a_moment_is_told_one_value_a_line)
         "  distance (au)                     1.016",
         "  diameter (deg)                    0.524",
         "  direct normal illuminance (lx)    ",
-        "  sunrise                           2026-06-21T03:44+03:00\n",
+        "  sunrise                           2026-06-21T03:45+03:00\n",
         "  transit                           2026-06-21T12:31+03:00  57.6",
         "  sunset                            2026-06-21T21:18+03:00\n",
-        "  day length                        17 h 33 min\n",
+        "  day length                        17 h 34 min\n",
         "Direct normal illuminance: clear sky, ",
         "turbidity 3",
         "UT1 is taken as UTC",
@@ -236,7 +239,7 @@ TEST(air_bends_and_haze_dims)
 TEST(places_are_read_in_any_notation)
 {
     static const char *const places[] = { "40.446195, -79.948862", "40:26:46.302N 79:56:55.903W",
-                                          "17T 589137 4477804", "17TNE8913777804" };
+                                          "17N 589138 4477813", "17TNE8913877813" };
     program_result r                  = { 0 };
     for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
         LUX4(NULL, 0, &r, "sun", "--place", places[i], "--time", "2026-06-21T10:00-04:00",
@@ -491,7 +494,7 @@ TEST(a_diagram_has_its_labels)
         "Europe/Moscow",
         "hours: civil time at UTC+03:00<",
         "orange: path of 2026-06-21; sun at "
-        "2026-06-21T10:00+03:00: azimuth 123.7°, elevation 47.4°<",
+        "2026-06-21T10:00+03:00: azimuth 123.7°, elevation 47.5°<",
     };
     char *folder     = folder_new();
     program_result r = { 0 };

@@ -76,3 +76,14 @@ int text_distance(const char *a, const char *b)
         }
     return d[rows][columns];
 }
+
+const char *text_quote(char out[TEXT_QUOTE], const char *s)
+{
+    int length = 0;
+    for (; s[length] && length < TEXT_QUOTE - 4; length++) {
+        unsigned char c = (unsigned char)s[length];
+        out[length]     = c < ' ' || c == 127 ? '?' : s[length];
+    }
+    strcpy(out + length, s[length] ? "..." : "");
+    return out;
+}

@@ -18,6 +18,11 @@ bool text_number(const char *s, const char **end, double *out);
  * b of a. Of each, 31 bytes are looked at. */
 int text_distance(const char *a, const char *b);
 
+enum { TEXT_QUOTE = 72 };
+/* s as a message quotes it: on one line, without control characters, cut where it is long. Returns
+ * out. */
+const char *text_quote(char out[TEXT_QUOTE], const char *s);
+
 #ifdef __cplusplus
 }
 #endif

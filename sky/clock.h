@@ -2,7 +2,7 @@
  *
  * A moment is a number of seconds since 1970-01-01T00:00:00 UTC, every day having 86,400 of them
  * (POSIX). The calendar is the Gregorian one. Zones are those of the IANA data base, with all
- * changes since 1900 and the rules for years to come, or a fixed offset. Zones are immutable once
+ * changes from 1900 to 2100 that ICU knows of, or a fixed offset. Zones are immutable once
  * made: any thread may ask them.
  */
 #ifndef SKY_CLOCK_H

@@ -296,7 +296,7 @@ TEST(a_day_that_clocks_left_out_is_none)
 TEST(a_time_that_clocks_skip_or_repeat_shows_both_readings)
 {
     static const char *const times[][3] = {
-        { "2026-03-29T02:30", "2026-03-29T03:30+02:00", "2026-03-29T01:30+01:00" },
+        { "2026-03-29T02:30", "2026-03-29T02:00+01:00", "2026-03-29T03:00+02:00" },
         { "2026-10-25T02:30", "2026-10-25T02:30+02:00", "2026-10-25T02:30+01:00" },
     };
     for (int i = 0; i < 2; i++) {
@@ -378,17 +378,26 @@ TEST(noon_of_midsummer_is_latitude_and_obliquity)
     program_free(&r);
 }
 
-TEST(the_first_and_the_last_year_are_whole)
+/* Clocks are up to 14 h ahead of UTC, and 12 h behind. */
+TEST(the_first_and_the_last_day_are_there_on_all_clocks)
 {
-    static const char *const zones[] = { "Pacific/Kiritimati", "Pacific/Pago_Pago", "UTC" };
-    program_result r                 = { 0 };
-    for (int i = 0; i < 3; i++) {
-        LUX4(NULL, 0, &r, "sun", "--place", "0 0", "--zone", zones[i], "--year", "--time", "1901");
-        LUX4(NULL, 0, &r, "sun", "--place", "0 0", "--zone", zones[i], "--year", "--time", "2099");
+    static const char *const days[][2] = { { "+14:00", "1900-01-01" },
+                                           { "-12:00", "1900-01-01" },
+                                           { "+14:00", "2100-12-31" },
+                                           { "-12:00", "2100-12-31" } };
+    char *folder                       = folder_new();
+    program_result r                   = { 0 };
+    for (int i = 0; i < 4; i++) {
+        LUX4(folder, 0, &r, "sun", "--place", "0 0", "--zone", days[i][0], "--day", "--time",
+             days[i][1], "--plot", "edge.svg", "--overwrite");
+        assert_int_equal(times(r.out, i % 2 ? "-12:00  " : "+14:00  "), 25);
     }
     LUX4_FAILS(NULL, 2, "1900", "sun", "--place", "0 0", "--time", "1899-12-30T10:00Z");
     LUX4_FAILS(NULL, 2, "2100", "sun", "--place", "0 0", "--time", "2101-01-02T10:00Z");
+    LUX4_FAILS(NULL, 2, "1900", "sun", "--place", "0 0", "--zone", "UTC", "--year", "--time",
+               "1899");
     program_free(&r);
+    folder_free(folder);
 }
 
 /* ---- wrong words ----------------------------------------------------------------------------- */
@@ -590,7 +599,7 @@ int main(void)
         cmocka_unit_test(a_day_has_a_row_an_hour),
         cmocka_unit_test(a_year_has_a_row_a_day),
         cmocka_unit_test(noon_of_midsummer_is_latitude_and_obliquity),
-        cmocka_unit_test(the_first_and_the_last_year_are_whole),
+        cmocka_unit_test(the_first_and_the_last_day_are_there_on_all_clocks),
         cmocka_unit_test(what_is_missing_is_asked_for),
         cmocka_unit_test(wrong_values_are_refused),
         cmocka_unit_test(a_diagram_has_its_labels),

@@ -170,10 +170,10 @@ bool sun_day_of(const site *s, const clock_zone *z, const civil_time *date, sun_
         !sun_at_next(&w.series, s, NULL, bound[0], &first, err))
         return false;
 
-    *out = (sun_day){ .sunrise               = NAN,
-                      .sunset                = NAN,
-                      .transit               = NAN,
-                      .transit_elevation_deg = NAN,
+    *out = (sun_day){ .sunrise               = (double)NAN,
+                      .sunset                = (double)NAN,
+                      .transit               = (double)NAN,
+                      .transit_elevation_deg = (double)NAN,
                       .always_up             = true,
                       .always_down           = true };
     count_day(&w, bound, out);

@@ -4,6 +4,13 @@
 
 #include <string.h>
 
+/* What sky/ refuses, with the option that it was given by. */
+static void *refused(const char *option, lux_error *err)
+{
+    lux_error why = *err;
+    return failed(err, why.code, "%s: %s", option, why.text);
+}
+
 /* A year alone: four digits. */
 static bool is_year(const char *text)
 {
@@ -31,7 +38,7 @@ static bool read_time(const sun_line *l, clock_text *out, lux_error *err)
         return true;
     }
     if (!clock_read(out, l->time, err))
-        return false;
+        return refused("--time", err);
     if (!out->has_time && !l->day && !l->year)
         return failed(err, ERR_ARGUMENT,
                       "--time %s: expected a time of day, too (%sT10:00); a date alone is for "
@@ -58,7 +65,7 @@ static bool read_zone(arena *a, const sun_line *l, const clock_text *t, sun_ques
     strcpy(kept, text);
     out->zone_name = kept;
     out->zone      = clock_zone_new(a, kept, err);
-    return out->zone != NULL;
+    return out->zone || refused("--zone", err);
 }
 
 static bool read_place(const sun_line *l, sun_question *out, lux_error *err)
@@ -67,7 +74,7 @@ static bool read_place(const sun_line *l, sun_question *out, lux_error *err)
         return failed(err, ERR_ARGUMENT, "--place: where? (--place \"55.7558N 37.6173E\")");
     out->place = l->place;
     if (!site_read(&out->at, l->place, err))
-        return false;
+        return refused("--place", err);
     if (!isnan(l->altitude_m))
         out->at.altitude_m = l->altitude_m;
     sun_air given          = { .pressure_hpa = l->pressure_hpa, .temperature_c = l->temperature_c };
@@ -98,25 +105,32 @@ static bool read_question(const command_context *c, sun_question *out, lux_error
     if (!t.has_time)
         return true;
     if (!clock_moment(out->zone, &t, &out->moment, err))
-        return false;
+        return refused("--time", err);
     out->date = clock_local(out->zone, out->moment);
     return true;
+}
+
+static bool plot(const sun_question *q, const command_line *l, lux_error *err)
+{
+    const char *end = strrchr(l->plot, '.');
+    if (!end || strcmp(end, ".svg") != 0)
+        return failed(err, ERR_ARGUMENT, "--plot %s: expected a file *.svg", l->plot);
+    return output_free(l->plot, l->place.overwrite, err) && sun_plot(q, l->plot, err);
 }
 
 static int sun_command(const command_context *c, lux_error *err)
 {
     const sun_line *l = &c->line->sun;
-    const char *plot  = c->line->plot;
     sun_question q    = { 0 };
     if (!read_question(c, &q, err))
         return exit_code_of(err, true);
-    if (plot && (!output_free(plot, c->line->place.overwrite, err) || !sun_plot(&q, plot, err)))
+    if (c->line->plot && !plot(&q, c->line, err))
         return exit_code_of(err, false);
     bool good = l->year  ? sun_report_year(stdout, &q, err)
                 : l->day ? sun_report_day(stdout, &q, err)
                          : sun_report_moment(stdout, &q, err);
-    if (good && plot && !q.json)
-        printf("written: %s\n", plot);
+    if (good && c->line->plot && !q.json)
+        printf("written: %s\n", c->line->plot);
     return good ? EXIT_DONE : exit_code_of(err, true);
 }
 
@@ -140,12 +154,15 @@ const command command_sun = {
         "whatever air or altitude; on days without, JSON has null. Direct normal illuminance is\n"
         "that of the sun square to its beam under a clear sky, by the formula that is named.\n"
         "--day: each full hour that clocks show on that date. --year: each day. JSON then has\n"
-        "`hours` or `days`.\n"
+        "`hours` or `days`, with the fields that it has for a moment: azimuth_deg, elevation_deg,\n"
+        "apparent_elevation_deg, declination_deg, equation_of_time_min, solar_time, distance_au,\n"
+        "diameter_deg, direct_normal_lx; sunrise, transit, sunset, day_length_h.\n"
         "--plot: the sun's paths of the 21st of each month and of the date asked for, and where\n"
-        "it stands at each hour of that year (full lines January to June, broken July to\n"
-        "December), as on a map: north up, east right, stereographic, the rim\n"
-        "the horizon; hours are those of clocks, at the one offset that is named; with the time\n"
-        "asked for, the sun.\n",
+        "it stands at each hour over that year (full lines January to June, broken July to\n"
+        "December). As on a map north is up and east on the right; stereographic, the horizon\n"
+        "its rim. Hours are those of clocks, at one offset, which is named. With a time of day "
+        "the\n"
+        "sun is drawn where it stands.\n",
     .options = " --place --time --zone --altitude --pressure --temperature --turbidity --day "
                "--year --plot --overwrite --json --quiet ",
     .run     = sun_command,

@@ -435,13 +435,13 @@ TEST(wrong_values_are_refused)
         { "--turbidity", "0.9", "from 1 to 20" },
         { "--turbidity", "21", "from 1 to 20" },
         { "--zone", "Europe/Moskow", "Europe/Moscow" },
-        { "--zone", "", "" },
+        { "--zone", "", "--zone: " },
         { "--zone", "+25:00", "+25:00" },
-        { "--place", "", "" },
+        { "--place", "", "--place: " },
         { "--place", "Moscow", "Moscow" },
         { "--place", "91N 0E", "91N 0E" },
         { "--place", "nan nan", "nan nan" },
-        { "--time", "", "" },
+        { "--time", "", "--time: " },
         { "--time", "now", "now" },
         { "--time", "2026-02-29T10:00", "2026-02-29" },
         { "--time", "2026-06-21T24:00", "24:00" },
@@ -452,6 +452,8 @@ TEST(wrong_values_are_refused)
         SUN_FAILS(values[i][2], MOSCOW, "--time", "2026-06-21T10:00", values[i][0], values[i][1]);
     SUN_FAILS("--altitude: expected M behind it", MOSCOW, "--altitude");
     SUN_FAILS("--day takes no value", MOSCOW, "--day=2026-06-21");
+    SUN_FAILS("--plot x.png: expected a file *.svg", MOSCOW, "--time", "2026-06-21T10:00", "--plot",
+              "x.png");
     SUN_FAILS("--write has no meaning", MOSCOW, "--write", "x");
     LUX4_FAILS(NULL, 2, "--place has no meaning", "grid", "none.yaml", "--place", "0 0");
     /* Elsewhere --time is seconds still */

@@ -158,7 +158,8 @@ static void print_year(FILE *out, const sun_question *q, const sun_days *y)
                     "transit", "sunset", "day length", "noon deg");
         print_row(out, q, &y->date[i], &y->day[i]);
     }
-    fputs("\nnoon deg: the true elevation at transit. up all day: polar day; down: polar night.\n",
+    fputs("\nnoon deg: the true elevation at transit. up all day: polar day; down: polar night.\n"
+          "none: not on that date of the clock.\n",
           out);
     sun_print_notes(out, q, false);
 }

@@ -34,6 +34,13 @@ static const option options[] = {
     { "--direct-only", NULL, "leave interreflection out" },
     { "--groups", NULL, "also a layer of each group of lamps, undimmed, for lux4 mix", true },
     { "--schedule", NULL, "also the luminaires: counts, watts, lm/W, W/m2", true },
+    { "--date", "D[..D]", "this date, or all from one to another, in place of the study's `when`",
+      true },
+    { "--from", "H", "first time of the day, for instance 08:00", true },
+    { "--to", "H", "last time of the day", true },
+    { "--step", "MIN", "minutes from one time to the next (default: the study's, or else 60)",
+      true },
+    { "--factor", NULL, "the daylight factor in place of a series", true },
     { "--half", NULL, "write 16-bit floats" },
     { "--exposure", "EV", "brighter or darker preview, in stops" },
     { "--plot", "FILE.svg", "draw it, as said above", true },
@@ -182,6 +189,17 @@ static bool take(command_line *l, const char *name, const char *value, lux_error
         l->write = value;
     } else if (!strcmp(name, "--variant")) {
         l->variant = value;
+    } else if (!strcmp(name, "--date")) {
+        l->date = value;
+    } else if (!strcmp(name, "--from")) {
+        l->from = value;
+    } else if (!strcmp(name, "--to")) {
+        l->to = value;
+    } else if (!strcmp(name, "--step")) {
+        return number(name, value, 1.0 / 60.0, 1440.0, "minutes, a second to a day", &l->step_min,
+                      err);
+    } else if (!strcmp(name, "--factor")) {
+        l->factor = true;
     } else if (!strcmp(name, "--overwrite")) {
         l->place.overwrite = true;
     } else if (!strcmp(name, "--direct-only")) {
@@ -240,6 +258,7 @@ bool command_line_read(arena *a, const command *c, int count, char *const *words
     *out                = (command_line){ .seed     = 1,
                                           .accuracy = unsaid,
                                           .seconds  = unsaid,
+                                          .step_min = unsaid,
                                           .sun      = { .altitude_m    = unsaid,
                                                         .pressure_hpa  = unsaid,
                                                         .temperature_c = unsaid,

@@ -17,6 +17,14 @@ typedef enum exit_code {
     EXIT_INTERRUPTED = 130,
 } exit_code;
 
+/* Of lux4 sun: where and when. */
+typedef struct sun_line {
+    const char *place, *zone, *time;                /* NULL */
+    double altitude_m, pressure_hpa, temperature_c; /* NAN */
+    double turbidity;                               /* NAN */
+    bool day, year;
+} sun_line;
+
 /* What the words of a command line came to. */
 typedef struct command_line {
     const char *const *files; /* what is not an option, in order */
@@ -30,6 +38,7 @@ typedef struct command_line {
     double exposure_ev;                /* 0: as the picture's average asks */
     const char *plot, *write, *swatch; /* NULL */
     const char *variant;               /* of the study; NULL */
+    sun_line sun;
     bool factor;
     const char *date, *from, *to; /* as written; NULL */
     double step_min;              /* NAN */
@@ -60,7 +69,7 @@ typedef struct command {
 } command;
 
 extern const command command_grid, command_render, command_check, command_photometry,
-    command_material, command_mix, command_daylight, command_sky;
+    command_material, command_mix, command_sun, command_sky, command_daylight;
 
 /* Reads the words behind the command's name. False, with *err, for what cannot be. */
 bool command_line_read(arena *a, const command *c, int count, char *const *words, command_line *out,

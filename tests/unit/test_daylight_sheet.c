@@ -115,10 +115,11 @@ TEST(an_hour_that_clocks_show_twice_has_two_plans)
 {
     daylight_series s;
     made_series(&memory, 2, 3, &s);
-    moment *m       = (moment *)s.moments; /* ours: 10, 11, 11 */
-    m[2].local.hour = 11;
-    m[2].text[11]   = '1';
-    m[2].text[12]   = '1';
+    moment own[6]; /* 10, 11, 11 */
+    memcpy(own, s.moments, sizeof own);
+    own[2].local.hour = 11;
+    memcpy(own[2].text + 11, "11", 2);
+    s.moments = own;
     draw(&s);
     assert_int_equal(count_of(">11:00 (2nd)</text>"), 1);
     assert_int_equal(count_of(">11:00</text>"), 2);

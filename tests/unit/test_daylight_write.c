@@ -80,13 +80,13 @@ TEST(a_table_has_a_row_for_each_sensor_and_moment)
 {
     daylight_series s = made(1, 2);
     assert_true(daylight_write_csv(path_in(folder, "a.csv"), &s, NULL));
+    static const char top[] =
+        "time,x,y,z,nx,ny,nz,illuminance_lx,direct_lx,indirect_lx,half_width_lx\n"
+        "2026-06-21T10:00Z,0.5,0.5,0.75,0,0,1,100,50,50,1\n"
+        "2026-06-21T10:00Z,1.5,0.5,0.75,0,0,1,101,50.5,50.5,1.01\n";
     char *text = text_of_file("a.csv");
-    assert_memory_equal(text,
-                        "time,x,y,z,nx,ny,nz,illuminance_lx,direct_lx,indirect_lx,half_width_lx\n"
-                        "2026-06-21T10:00+00:00,0.5,0.5,0.75,0,0,1,100,50,50,1\n"
-                        "2026-06-21T10:00+00:00,1.5,0.5,0.75,0,0,1,101,50.5,50.5,1.01\n",
-                        71 + 54 + 60);
-    assert_non_null(strstr(text, "2026-06-21T11:00+00:00,2.5,1.5,0.75,0,0,1,204,102,102,2.04\n"));
+    assert_memory_equal(text, top, sizeof top - 1);
+    assert_non_null(strstr(text, "2026-06-21T11:00Z,2.5,1.5,0.75,0,0,1,204,102,102,2.04\n"));
     assert_null(strstr(text, "1.5,1.5,")); /* left out */
     int rows = 0;
     for (const char *c = text; *c; c++)
@@ -159,7 +159,7 @@ TEST(a_picture_has_a_part_a_moment_with_the_largest_v_on_top)
 
 static daylight_factor made_factor(grid_result *r)
 {
-    static double all[] = { 1000, 100, 200, 300, 150 }, sky[] = { 900, 50, 0, 300, 150 };
+    static double all[] = { 1000, 100, 200, 300, 150 }, straight[] = { 900, 50, 0, 300, 150 };
     static double back[] = { 100, 50, 200, 0, 0 }, outside[] = { 60, 0, 250, 0, 0 };
     static double half[] = { 10, 1, 2, 3, 1.5 };
     daylight_series s    = made(1, 1);
@@ -167,7 +167,7 @@ static daylight_factor made_factor(grid_result *r)
     daylight_factor f    = { 0 };
     *r                   = s.plan;
     r->illuminance       = all;
-    r->direct            = sky;
+    r->direct            = straight;
     r->indirect          = back;
     r->outside           = outside;
     r->half_width        = half;

@@ -178,7 +178,7 @@ static int run_series(const command_context *c, const study *s, lux_error *err)
 
     int code      = EXIT_DONE;
     run_options o = command_run_options(c, 1);
-    double step_h = when.series ? when.step_min / 60.0 : (double)NAN;
+    double step_h = when.from_min < when.to_min ? when.step_min / 60.0 : (double)NAN;
     if (!daylight_begin(&d, step_h, err) ||
         !check_places(c, d.scene, series_extensions, SERIES_EXTENSIONS, err) ||
         !daylight_run(&d, &o, err))

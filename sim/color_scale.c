@@ -42,6 +42,13 @@ color_scale color_scale_even(color_ramp ramp, double most)
     return s;
 }
 
+color_scale color_scale_of(color_ramp ramp, double least, double most)
+{
+    enum { ENOUGH_BANDS = 5 };
+    color_scale s = color_scale_125(ramp, least, most);
+    return s.bands >= ENOUGH_BANDS ? s : color_scale_even(ramp, most);
+}
+
 int color_scale_band(const color_scale *s, double x)
 {
     int band = 0;

@@ -27,6 +27,9 @@ color_scale color_scale_125(color_ramp ramp, double least, double most);
 /* From 0 to `most`: equal steps of 1, 2, 2.5 or 5 times a power of ten. */
 color_scale color_scale_even(color_ramp ramp, double most);
 
+/* The first of the two, unless that has too few bands to tell much. */
+color_scale color_scale_of(color_ramp ramp, double least, double most);
+
 int color_scale_band(const color_scale *s, double x);
 
 /* sRGB. */

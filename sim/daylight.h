@@ -28,9 +28,9 @@ typedef struct daylight_series {
     grid_moment *light;    /* of each of the first `count` */
     daylight_figures *of;  /* the same */
     double north_deg;      /* where true north lies, clockwise from +y */
-    double step_h;         /* of the series; NAN: a single time, which has no length */
+    double step_h;         /* of the series; NAN: a single time a day, which has no length */
     double *sun_hours;     /* h, a sensor: step * grid_moment.sun, over all moments, by date: the
-                              mean of a day. NULL: a single time, or no sun in the sky */
+                              mean of a day. NULL: no step, or nothing looked for the sun */
     int dates;             /* of those that were run */
     double asked, reached; /* as of grid_result, over all moments */
     int missed;            /* sensors, in the batch where they are most */

@@ -269,7 +269,7 @@ static bool draw(sheet *d, lux_error *err)
     }
     for (int k = 0; s->sun_hours && k < s->plan.sensor_count; k++)
         longest = fmax(longest, s->sun_hours[k]);
-    d->light = color_scale_125(RAMP_LIGHT, least, most);
+    d->light = color_scale_of(RAMP_LIGHT, least, most);
     d->hours = color_scale_even(RAMP_HOURS, longest);
     lay_out(d);
     svg_begin(d->out, d->at.page_width, d->at.page_height);
@@ -298,7 +298,7 @@ bool daylight_sheet_write(const char *path, const daylight_series *s, lux_error 
 
 static void draw_factor(FILE *out, const daylight_factor *f, const char *under)
 {
-    color_scale scale = color_scale_125(RAMP_LIGHT, f->minimum, f->maximum);
+    color_scale scale = color_scale_of(RAMP_LIGHT, f->minimum, f->maximum);
     double aspect = sheet_aspect(f->plan), room = PAGE_WIDTH - 2.0 * MARGIN;
     double width = fmin(room, (PAGE_HEIGHT - HEADER - MARGIN) / aspect);
     sheet_box b  = { MARGIN, HEADER, width, fmax(width * aspect, 2.0 * LEAST_HEIGHT) };

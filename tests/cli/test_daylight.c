@@ -291,6 +291,7 @@ TEST(more_moments_than_a_batch_holds_are_all_there_in_their_order)
     LUX4(folder, 0, &r, "daylight", "many.yaml", "--date", "2026-06-21", "--from", "10:00",
          "--accuracy", "50%");
     assert_int_equal(count_rows("out/out.csv"), 2);
+    assert_null(strstr(r.out, "direct sun")); /* a single time has no length */
     folder_write(folder, "other.yaml", ROOM "}\n" OUTSIDE "sky: {model: overcast}\n");
     LUX4_FAILS(folder, 2, "is there already", "daylight", "other.yaml", "--factor");
 }

@@ -41,6 +41,15 @@ TEST(hours_have_equal_steps)
     assert_true(s.limit[6] == 12.0);
 }
 
+TEST(a_narrow_range_has_equal_steps)
+{
+    color_scale s = color_scale_of(RAMP_LIGHT, 1136.3, 5317.5);
+    assert_int_equal(s.bands, 6);
+    assert_true(s.limit[0] == 0.0 && s.limit[6] == 6000.0);
+    s = color_scale_of(RAMP_LIGHT, 61.0, 5317.5);
+    assert_true(s.bands == 7 && s.limit[0] == 50.0 && s.limit[7] == 10000.0);
+}
+
 TEST(darkness_has_a_scale)
 {
     color_scale s = color_scale_125(RAMP_LIGHT, 0.0, 0.0);
@@ -84,6 +93,7 @@ int main(void)
         cmocka_unit_test(a_scale_begins_below_the_least_value),
         cmocka_unit_test(what_is_a_limit_itself_fits),
         cmocka_unit_test(hours_have_equal_steps),
+        cmocka_unit_test(a_narrow_range_has_equal_steps),
         cmocka_unit_test(darkness_has_a_scale),
         cmocka_unit_test(a_band_holds_its_lower_limit_and_not_its_upper),
         cmocka_unit_test(each_band_is_lighter_than_the_one_below),

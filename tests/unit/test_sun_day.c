@@ -39,6 +39,22 @@ TEST(length_is_the_time_that_it_is_up_near_polar_day)
         }
 }
 
+/* At midsummer, south of polar day by hundredths of a degree. */
+TEST(nights_of_minutes_are_found)
+{
+    int shortest    = 0;
+    const char *day = "2026-06-21T00:00+05:00";
+    for (int i = 0; i < 12; i++) {
+        const site s = { 65.69 + 0.005 * i, 25.0, 0.0 };
+        sun_day d    = sun_on(&s, "+05:00", 2026, 6, 21);
+        double hours = counted(&s, moment_of(day), moment_of(day) + 86400.0);
+        assert_true(fabs(d.length_h - hours) <= 2.5 / 60.0);
+        shortest += hours < 24.0 && hours > 23.5;
+        assert_int_equal(d.always_up, isnan(d.sunset));
+    }
+    assert_in_range(shortest, 2, 11);
+}
+
 static void check_horizon(const site *s, double moment, bool rises)
 {
     double before = sun_bare(s->latitude_deg, s->longitude_deg, moment - 1.0).elevation_deg;
@@ -154,10 +170,15 @@ TEST(of_two_sunrises_the_first_of_two_sunsets_the_last_counts)
 TEST(what_is_no_date_is_refused)
 {
     const site s          = { 0 };
-    const civil_time no[] = { { 2026, 2, 29, 0, 0, 0 }, { 2026, 13, 1, 0, 0, 0 },
-                              { 2026, 0, 1, 0, 0, 0 },  { 1899, 12, 31, 0, 0, 0 },
-                              { 2101, 1, 1, 0, 0, 0 },  { 2147483647, 2147483647, 1, 0, 0, 0 } };
-    for (int i = 0; i < 6; i++) {
+    const civil_time no[] = { { 2026, 2, 29, 0, 0, 0 },
+                              { 2026, 13, 1, 0, 0, 0 },
+                              { 2026, 0, 1, 0, 0, 0 },
+                              { 1899, 12, 31, 0, 0, 0 },
+                              { 2101, 1, 1, 0, 0, 0 },
+                              { 2147483647, 2147483647, 1, 0, 0, 0 },
+                              { 2026, 2147483647, -2147483647, 0, 0, 0 },
+                              { 1970, 0, 1, 0, 0, 0 } };
+    for (int i = 0; i < 8; i++) {
         sun_day d;
         lux_error err = { 0 };
         assert_false(sun_day_of(&s, NULL, &no[i], &d, &err));
@@ -175,6 +196,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(length_is_the_time_that_it_is_up_near_polar_day),
+        cmocka_unit_test(nights_of_minutes_are_found),
         cmocka_unit_test(sunrise_and_sunset_cross_the_horizon_within_a_second),
         cmocka_unit_test(days_of_23_and_25_hours_are_as_long),
         cmocka_unit_test(a_date_without_midnight_begins_when_clocks_show_it),

@@ -63,6 +63,14 @@ bool image_pictures_ready(lux_error *err);
 bool image_load_rgba(const char *path, const void *bytes, size_t size, bool srgb, arena *a,
                      int *width, int *height, float **rgba, lux_error *err);
 
+/* A whole picture of light, as panoramas are: (*rgb0)[4 * (y * *width + x) + c], as above but that
+ * channels R, G and B count, or one alone, and no other, alpha neither, whatever they hold: each
+ * fourth float is 0; some may be negative. Integers are decoded from sRGB. False, with *err, also
+ * for a picture that is cut out of a larger one, lies in its file turned or mirrored, or has
+ * luminance and chroma in place of colours. */
+bool image_load_radiance(const char *path, arena *a, int *width, int *height, float **rgb0,
+                         lux_error *err);
+
 #ifdef __cplusplus
 }
 #endif

@@ -117,18 +117,55 @@ bool size_allowed(const OIIO::ImageSpec &s, oiio_message *why)
     return true;
 }
 
-// Rows begin .. end - 1 of the first `channels` channels.
-bool read_rows(OIIO::ImageInput &in, const OIIO::ImageSpec &s, int begin, int end, int channels,
+// Which channels of a file are read, and as what.
+struct choice {
+    int first, count;
+    int alpha;   // among them; -1: none
+    bool decode; // integers, from sRGB, but for alpha
+};
+
+choice choose(const OIIO::ImageSpec &s, bool srgb)
+{
+    const bool integer = s.format == OIIO::TypeDesc::UINT8 || s.format == OIIO::TypeDesc::UINT16;
+    const int count    = std::min(s.nchannels, 4);
+    return choice{ 0, count, count % 2 == 0 ? count - 1 : -1, srgb && integer };
+}
+
+// R, G and B, side by side wherever they are, or the one of a grey picture.
+bool choose_radiance(const OIIO::ImageSpec &s, bool srgb, choice *out, oiio_message *why)
+{
+    const int red   = s.channelindex("R");
+    const bool rgb  = red >= 0 && s.channelindex("G") == red + 1 && s.channelindex("B") == red + 2;
+    const bool grey = s.nchannels <= 2;
+    if (!rgb && !grey) {
+        std::string names;
+        for (int c = 0; c < std::min(s.nchannels, 6); c++)
+            names += " " + std::string(s.channel_name(c));
+        return refuse(why, "its channels are" + names + ": R, G and B, or one alone, are expected");
+    }
+    if (s.x != s.full_x || s.y != s.full_y || s.width != s.full_width || s.height != s.full_height)
+        return refuse(why, "it is a part of a picture of " + std::to_string(s.full_width) + " x " +
+                               std::to_string(s.full_height) + " pixels: a whole one was expected");
+    if (s.get_int_attribute("Orientation", 1) != 1)
+        return refuse(why, "it lies turned or mirrored in its file: rows from the top, from left "
+                           "to right, are expected");
+    *out = choose(s, srgb);
+    *out = { rgb ? red : 0, rgb ? 3 : 1, -1, out->decode };
+    return true;
+}
+
+// Rows begin .. end - 1 of the channels chosen.
+bool read_rows(OIIO::ImageInput &in, const OIIO::ImageSpec &s, int begin, int end, const choice &c,
                float *values)
 {
     if (!s.tile_width)
-        return in.read_scanlines(0, 0, s.y + begin, s.y + end, s.z, 0, channels,
+        return in.read_scanlines(0, 0, s.y + begin, s.y + end, s.z, c.first, c.first + c.count,
                                  OIIO::TypeDesc::FLOAT, values);
-    return in.read_tiles(0, 0, s.x, s.x + s.width, s.y + begin, s.y + end, s.z, s.z + 1, 0,
-                         channels, OIIO::TypeDesc::FLOAT, values);
+    return in.read_tiles(0, 0, s.x, s.x + s.width, s.y + begin, s.y + end, s.z, s.z + 1, c.first,
+                         c.first + c.count, OIIO::TypeDesc::FLOAT, values);
 }
 
-// Some rows, linear: of the first channels, four at most.
+// Some rows, linear: of the channels chosen.
 struct strip {
     int begin, rows, channels;
     const float *values;
@@ -141,30 +178,37 @@ std::string place_of(const OIIO::ImageSpec &s, const strip &rows, size_t i)
            std::to_string(size_t(rows.begin) + pixel / width);
 }
 
-// Hands all rows to `use`, which has no alpha but where there are two or four channels.
+bool values_sound(const OIIO::ImageSpec &s, const strip &rows, oiio_message *why)
+{
+    const size_t count = size_t(s.width) * size_t(rows.rows) * size_t(rows.channels);
+    for (size_t i = 0; i < count; i++) {
+        if (!std::isfinite(rows.values[i]))
+            return refuse(why,
+                          "in " + place_of(s, rows, i) + " is a value that is no finite number");
+    }
+    return true;
+}
+
+// Hands all rows to `use`.
 template <typename F>
-bool each_strip(OIIO::ImageInput &in, const OIIO::ImageSpec &s, bool srgb, oiio_message *why, F use)
+bool each_strip(OIIO::ImageInput &in, const OIIO::ImageSpec &s, const choice &c, oiio_message *why,
+                F use)
 {
     static const std::vector<float> table = srgb_table();
-    const bool integer = s.format == OIIO::TypeDesc::UINT8 || s.format == OIIO::TypeDesc::UINT16;
-    const int channels = std::min(s.nchannels, 4);
-    const int alpha    = channels == 2 || channels == 4 ? channels - 1 : -1;
-    const int height   = s.tile_width ? std::max(s.tile_height, 1) : STRIP;
+    const int height                      = s.tile_width ? std::max(s.tile_height, 1) : STRIP;
     std::vector<float> values(size_t(s.width) * size_t(std::min(height, s.height)) *
-                              size_t(channels));
+                              size_t(c.count));
     for (int y = 0; y < s.height; y += height) {
-        const strip rows = { y, std::min(height, s.height - y), channels, values.data() };
-        if (!read_rows(in, s, y, y + rows.rows, channels, values.data()))
+        const strip rows = { y, std::min(height, s.height - y), c.count, values.data() };
+        if (!read_rows(in, s, y, y + rows.rows, c, values.data()))
             return refuse(why, in.geterror());
-        const size_t count = size_t(s.width) * size_t(rows.rows) * size_t(channels);
-        for (size_t i = 0; i < count; i++) {
-            if (!std::isfinite(values[i]))
-                return refuse(why, "in " + place_of(s, rows, i) +
-                                       " is a value that is no finite number");
-            if (srgb && integer && int(i % size_t(channels)) != alpha)
+        if (!values_sound(s, rows, why))
+            return false;
+        const size_t count = size_t(s.width) * size_t(rows.rows) * size_t(c.count);
+        for (size_t i = 0; c.decode && i < count; i++)
+            if (int(i % size_t(c.count)) != c.alpha)
                 values[i] =
                     table[size_t(std::lround(std::clamp(values[i], 0.0f, 1.0f) * 65535.0f))];
-        }
         use(rows);
     }
     return true;
@@ -189,13 +233,17 @@ template <typename F> bool with_picture(const oiio_source &from, oiio_message *w
     return size_allowed(s, why) && f(*in, s);
 }
 
-bool load(OIIO::ImageInput &in, const OIIO::ImageSpec &s, bool srgb, oiio_place to,
+bool load(OIIO::ImageInput &in, const OIIO::ImageSpec &s, const oiio_source &from, oiio_place to,
           oiio_message *why)
 {
+    choice c = choose(s, from.srgb);
+    if (from.radiance && !choose_radiance(s, from.srgb, &c, why))
+        return false;
     float *rgba = to.make(to.context, s.width, s.height);
     if (!rgba)
         return refuse(why, "out of memory");
-    return each_strip(in, s, srgb, why, [&](const strip &rows) {
+    const float opaque = from.radiance ? 0.0f : 1.0f;
+    return each_strip(in, s, c, why, [&](const strip &rows) {
         const size_t channels = size_t(rows.channels);
         const size_t count    = size_t(s.width) * size_t(rows.rows);
         float *out            = rgba + size_t(rows.begin) * size_t(s.width) * 4;
@@ -203,7 +251,7 @@ bool load(OIIO::ImageInput &in, const OIIO::ImageSpec &s, bool srgb, oiio_place 
             *out++ = p[0];
             *out++ = p[channels < 3 ? 0 : 1];
             *out++ = p[channels < 3 ? 0 : 2];
-            *out++ = channels % 2 == 0 ? p[channels - 1] : 1.0f;
+            *out++ = c.alpha >= 0 ? p[c.alpha] : opaque;
         }
     });
 }
@@ -218,7 +266,7 @@ bool lux4_oiio_encode(const oiio_picture *picture, oiio_sink to, oiio_message *w
 bool lux4_oiio_load(const oiio_source *from, oiio_place to, oiio_message *why)
 {
     return guarded(why, [&] {
-        return with_picture(
-            *from, why, [&](auto &in, const auto &s) { return load(in, s, from->srgb, to, why); });
+        return with_picture(*from, why,
+                            [&](auto &in, const auto &s) { return load(in, s, *from, to, why); });
     });
 }

@@ -32,7 +32,8 @@ typedef struct oiio_source {
     const char *name;  /* of the file, if bytes is NULL */
     const void *bytes; /* a PNG, JPEG, ... in memory: told by how it begins */
     size_t size;
-    bool srgb; /* whether integers are sRGB rather than linear */
+    bool srgb;     /* whether integers are sRGB rather than linear */
+    bool radiance; /* colours alone, and each fourth float 0 */
 } oiio_source;
 
 /* Where a picture goes: make() gives room for width * height * 4 floats, or NULL. */

@@ -232,11 +232,10 @@ static float *make_room(void *context, int width, int height)
     return p->rgba;
 }
 
-bool image_load_rgba(const char *path, const void *bytes, size_t size, bool srgb, arena *a,
-                     int *width, int *height, float **rgba, lux_error *err)
+static bool load_picture(oiio_source from, const char *path, arena *a, int *width, int *height,
+                         float **values, lux_error *err)
 {
     arena scratch    = { 0 };
-    oiio_source from = { path, bytes, size, srgb };
     oiio_message why = { "" };
     picture p        = { .a = a };
     bool ok          = prepare(&from, path, &scratch, err) && plugin_ready(path, err);
@@ -249,6 +248,20 @@ bool image_load_rgba(const char *path, const void *bytes, size_t size, bool srgb
         return false;
     *width  = p.width;
     *height = p.height;
-    *rgba   = p.rgba;
+    *values = p.rgba;
     return true;
+}
+
+bool image_load_rgba(const char *path, const void *bytes, size_t size, bool srgb, arena *a,
+                     int *width, int *height, float **rgba, lux_error *err)
+{
+    oiio_source from = { .name = path, .bytes = bytes, .size = size, .srgb = srgb };
+    return load_picture(from, path, a, width, height, rgba, err);
+}
+
+bool image_load_radiance(const char *path, arena *a, int *width, int *height, float **rgb0,
+                         lux_error *err)
+{
+    oiio_source from = { .name = path, .srgb = true, .radiance = true };
+    return load_picture(from, path, a, width, height, rgb0, err);
 }

@@ -105,14 +105,17 @@ static const char text[] =
 "    fov        degrees         60          across the picture\n"
 "  projection   orthographic                a plan: eye just below the ceiling, for surfaces are\n"
 "    width      m               (!)         opaque from both sides\n"
+"  projection   fisheye                     180 degrees: angles to the target's direction go with\n"
+"                                           the distance from the middle; size: [768, 768]\n"
+"  projection   panorama                    all around, zenith to nadir, the middle column toward\n"
+"                                           the target, level: may be a sky; size: [1024, 512]\n"
 "  camera       name                        a glTF camera, in place of eye, target and so on\n"
 "  size         [px, px]        [1024, 768] with camera: the height follows the camera\n"
 "\n"
 "variants       {NAME: {changed keys}, ...}: merged by key with --variant NAME; what is no\n"
 "               mapping is replaced, ~ takes a key out\n"
 "\n"
-"Not supported yet: site, when, sky models but none; room: windows; scene: exterior, portals;\n"
-"views: fisheye, panorama.\n";
+"Not supported yet: site, when, sky models but none; room: windows; scene: exterior, portals.\n";
 /* clang-format on */
 
 void help_study(FILE *to) { fputs(text, to); }

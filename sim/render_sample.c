@@ -45,9 +45,11 @@ static void trace_camera(view_run_state *v, view_scratch *w, const sample_id *id
             index[i] = (int32_t)id->index;
             seed[i]  = (int32_t)hash_u32(seed_of(v, id));
         }
-        vsample4 u   = vsobol4(vunsigned(vload_int(index)), vunsigned(vload_int(seed)));
-        w->rays[k]   = camera_ray(&v->camera, vload(x) + u.x, vload(y) + u.y);
-        w->active[k] = (vlane_index() + k * LANES) < count;
+        vsample4 u    = vsobol4(vunsigned(vload_int(index)), vunsigned(vload_int(seed)));
+        vfloat across = vload(x) + u.x, down = vload(y) + u.y;
+        w->rays[k] = camera_ray(&v->camera, across, down);
+        w->active[k] =
+            ((vlane_index() + k * LANES) < count) & camera_sees(&v->camera, across, down);
     }
     world_first_hit(v->s->world, w->rays, w->active, packets, RAYS_COHERENT, w->hits);
     w->before = lamps_before(v->s, &v->shown, w->rays, w->active, packets, w->lamps);

@@ -240,7 +240,12 @@ typedef struct study_grid {
     double height, margin; /* m: above the floor, of `on: room`; from the edges, 0 */
 } study_grid;
 
-typedef enum study_projection { PROJECTION_PERSPECTIVE, PROJECTION_ORTHOGRAPHIC } study_projection;
+typedef enum study_projection {
+    PROJECTION_PERSPECTIVE,
+    PROJECTION_ORTHOGRAPHIC,
+    PROJECTION_FISHEYE,  /* 180 degrees, equidistant */
+    PROJECTION_PANORAMA, /* equirectangular, level whatever the target's height */
+} study_projection;
 
 typedef struct study_view {
     study_where where;
@@ -250,7 +255,7 @@ typedef struct study_view {
     double fov_deg;     /* horizontal; 60 */
     double width_m;     /* orthographic; else NAN */
     study_projection projection;
-    int width, height; /* pixels; 1024, 768 */
+    int width, height; /* pixels; 1024, 768; fisheye: 768, 768; panorama: 1024, 512 */
     bool size_given;
 } study_view;
 

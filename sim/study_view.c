@@ -24,8 +24,8 @@ static bool read_projection(const study_reader *r, const yaml_node_t *value, voi
     static const study_word words[] = {
         [PROJECTION_PERSPECTIVE]  = { "perspective", STUDY_OPTIONAL },
         [PROJECTION_ORTHOGRAPHIC] = { "orthographic", STUDY_OPTIONAL },
-        { "fisheye", STUDY_NOT_YET },
-        { "panorama", STUDY_NOT_YET },
+        [PROJECTION_FISHEYE]      = { "fisheye", STUDY_OPTIONAL },
+        [PROJECTION_PANORAMA]     = { "panorama", STUDY_OPTIONAL },
     };
     int i = study_read_word(r, value, words, sizeof words / sizeof *words, sizeof *words);
     if (i >= 0)
@@ -74,7 +74,22 @@ static bool view_is_whole(const study_reader *r, const yaml_node_t *map, const s
     if (v->projection == PROJECTION_ORTHOGRAPHIC)
         return with(r, map, "width", "in orthographic projection") &&
                without(r, map, "fov", "orthographic projection, which has a `width`");
-    return without(r, map, "width", "perspective, which has a `fov`");
+    if (v->projection == PROJECTION_PERSPECTIVE)
+        return without(r, map, "width", "perspective, which has a `fov`");
+    const char *why = v->projection == PROJECTION_FISHEYE ? "fisheye, which shows 180 degrees"
+                                                          : "panorama, which shows all around";
+    return without(r, map, "width", why) && without(r, map, "fov", why);
+}
+
+/* What is round is not squeezed where no size is given. */
+static void fit_size(study_view *v)
+{
+    if (v->size_given)
+        return;
+    if (v->projection == PROJECTION_FISHEYE)
+        v->width = v->height;
+    if (v->projection == PROJECTION_PANORAMA)
+        v->height = v->width / 2;
 }
 
 static bool read_view(const study_reader *r, const yaml_node_t *value, void *record)
@@ -85,7 +100,9 @@ static bool read_view(const study_reader *r, const yaml_node_t *value, void *rec
                                   .width_m = (double)NAN,
                                   .width   = 1024,
                                   .height  = 768 };
-    return study_read_map(r, value, &view_keys, v) && view_is_whole(r, value, v);
+    bool good     = study_read_map(r, value, &view_keys, v) && view_is_whole(r, value, v);
+    fit_size(v);
+    return good;
 }
 
 bool study_read_views(const study_reader *r, const yaml_node_t *value, void *record)

@@ -28,9 +28,10 @@ typedef struct panorama_sun {
     bool clipped;        /* its brightest pixels all have one value: the camera saw no more */
 } panorama_sun;
 
-/* Notices say what was found: the sun, where, how much light; that it is clipped; that the picture
- * is not twice as wide as high. False numbers, negative or not finite, are an error that names the
- * pixel. NULL, with *err naming the file. */
+/* Notices say what was found: the sun, where, how much light; that it is clipped; lamps that are
+ * none; that the picture is not twice as wide as high. Numbers that are not finite or are negative
+ * are an error that names the pixel, but for small negative ones beside bright pixels, which
+ * resampling leaves there: their light is taken from those. NULL, with *err naming the file. */
 const sky *sky_panorama(arena *a, const panorama_desc *d, panorama_sun *sun, notices *n,
                         lux_error *err);
 

@@ -7,12 +7,12 @@
  * A surface whose normal is at the angle t to the centre sees all of it where t <= pi/2 - R, and
  * gets e cos t. Where its horizon cuts the disk, of the rim the part within h of its highest place
  * is above, cos h = -cot t cot R, and Lambert's contour integral along that arc and back along the
- * horizon is
+ * horizon (which subtends 2 atan q) is
  *
- *     E = L (h cos t sin^2 R - sin t sin R cos R sin h + g),  tan g = sin R sin h sin t / cos R
+ *     E = L (h cos t sin^2 R - sin t sin R cos R sin h + atan q),   q = tan R sin h sin t
+ *       = e (h cos t + q - (q - atan q) / sin^2 R) / pi
  *
- * 2 g being what the horizon's part subtends. The sum loses digits where the disk is small, to some
- * 1e-7 L R, which is 1e-5 of e for the sun's.
+ * the second form without the difference of numbers that are near each other if R is small.
  */
 #include "sky/sun_light.h"
 
@@ -67,29 +67,35 @@ static vmask sun_hit(const light *self, const vvec3 *p, const vvec3 *wi, vmask a
     return met;
 }
 
+/* q - atan(q) for q >= 0: by its series where the difference would cancel. */
+static vfloat q_less_atan(vfloat q)
+{
+    vfloat q2     = q * q;
+    vfloat series = q * q2 * (0.333333333f - q2 * (0.2f - q2 * (0.142857143f - q2 * 0.111111111f)));
+    return vselect(q < 0.1f, series, q - vatan2(q, vsplat(1.0f)));
+}
+
 static vrgb sun_irradiance(const light *self, const vvec3 *p, const vvec3 *n, vmask active)
 {
     const sun_light *l = (const sun_light *)self;
     (void)p;
-    vvec3 axis    = vspread(l->axis);
-    vfloat cos_t  = vdot(*n, axis);
-    vvec3 cross   = vcross(*n, axis);
-    vfloat sin_t  = vlength(cross);
-    vfloat square = vsplat(l->sin_r * l->sin_r);
+    vvec3 axis   = vspread(l->axis);
+    vfloat cos_t = vdot(*n, axis);
+    vvec3 cross  = vcross(*n, axis);
+    vfloat sin_t = vlength(cross);
 
     /* Where the horizon meets the rim */
     vfloat cos_h = -cos_t * l->cos_r / vmax(sin_t * l->sin_r, vsplat(1e-30f));
     cos_h        = vmin(vmax(cos_h, vsplat(-1.0f)), vsplat(1.0f));
     vfloat sin_h = vsqrt((1.0f - cos_h) * (1.0f + cos_h));
+    vfloat q     = (l->sin_r / l->cos_r) * sin_h * sin_t;
+    vfloat rest  = q_less_atan(q) * (1.0f / (l->sin_r * l->sin_r));
+    vfloat cut   = 0.318309886f * (cos_t * vacos(cos_h) + (q - rest));
+    cut          = vmin(vmax(cut, vsplat(0.0f)), vsplat(1.0f));
 
-    vfloat arc = cos_t * square * vacos(cos_h) - sin_t * (l->sin_r * l->cos_r) * sin_h;
-    vfloat g   = vatan2(l->sin_r * sin_h * sin_t, vsplat(l->cos_r));
-    vfloat all = 3.14159265f * square;
-    vfloat cut = vmin(vmax(arc + g, vsplat(0.0f)), all);
-
-    vfloat seen = vselect(cos_t >= l->sin_r, all * cos_t, cut);
+    vfloat seen = vselect(cos_t >= l->sin_r, cos_t, cut);
     vmask lit   = active & (cos_t > -l->sin_r);
-    return vscale(vspread(l->radiance), vkeep(lit, seen));
+    return vscale(vspread(l->irradiance), vkeep(lit, seen));
 }
 
 /* The cosine at the disk's highest place, a little above it: samples on the rim are rounded. */

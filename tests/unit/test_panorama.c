@@ -5,6 +5,8 @@
 #include "tests/panorama_file.h"
 #include "tests/test.h"
 
+#include <dirent.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -278,6 +280,32 @@ TEST(files_that_are_no_picture_of_light_are_refused_by_name_and_pixel)
     file_box_free(&b);
 }
 
+/* Pictures that test readers, broken ones among them, where they are. */
+TEST(whatever_a_file_holds_it_is_a_sky_or_an_error_of_its_name)
+{
+    static const char folder[] = "../shared/data/hdr/reader_tests";
+    DIR *all                   = opendir(folder);
+    for (struct dirent *e; all && (e = readdir(all));) {
+        char path[400];
+        arena a         = { 0 };
+        panorama_desc d = plain;
+        lux_error err   = { 0 };
+        panorama_sun sun;
+        snprintf(path, sizeof path, "%s/%s", folder, e->d_name);
+        d.path       = path;
+        const sky *s = sky_panorama(&a, &d, &sun, NULL, &err);
+        if (!s && strncmp(err.text, path, strlen(path)) != 0)
+            fail_msg("%s", err.text);
+        if (s) {
+            vec3 l = look(s, 0.3, -0.4, 0.5);
+            assert_true(isfinite(l.x) && isfinite(l.y) && isfinite(l.z) && l.x >= 0.0f);
+        }
+        arena_clear(&a);
+    }
+    if (all)
+        closedir(all);
+}
+
 TEST(numbers_that_make_no_sense_are_refused)
 {
     file_box b = file_box_new();
@@ -392,6 +420,7 @@ int main(void)
         cmocka_unit_test(radiance_pictures_are_read_and_grey_ones),
         cmocka_unit_test(what_is_not_twice_as_wide_as_high_is_noticed),
         cmocka_unit_test(files_that_are_no_picture_of_light_are_refused_by_name_and_pixel),
+        cmocka_unit_test(whatever_a_file_holds_it_is_a_sky_or_an_error_of_its_name),
         cmocka_unit_test(numbers_that_make_no_sense_are_refused),
         cmocka_unit_test(without_memory_there_is_an_error),
         cmocka_unit_test(negative_swings_beside_a_bright_pixel_keep_its_energy),

@@ -80,7 +80,7 @@ MAKEFLAGS += --no-builtin-rules --no-print-directory
 Q         := $(if $V,,@)
 .DELETE_ON_ERROR:
 .SECONDARY:
-.PHONY: all check check-long tests demo bench bench-lights bench-brdf bench-texture bench-hall bench-programs bench-deps deps fuzz fuzzers install layers \
+.PHONY: all check check-long tests demo bench bench-lights bench-brdf bench-texture bench-sky bench-hall bench-programs bench-deps deps fuzz fuzzers install layers \
         format format-check clean help FORCE
 
 ## all: the library and the program (what plain `make` does)
@@ -93,6 +93,7 @@ $B/liblux4.a: $(SRC:%=$B/%.o) $B/links
 $(PROG): $B/sim/main.c.o
 $(TESTS) $(LONG) $(BENCH): $B/%: $B/%.c.o $(AIDS:%=$B/%.o)
 $(filter $B/tests/cli/%,$(TESTS)): | $(PROG) $(PLUG) # which they run
+$B/tests/bench/bench_sky: | $(PLUG) # which reads a panorama
 $(TESTS) $(LONG) $(BENCH): private LDFLAGS += -Wl,--wrap=aligned_alloc
 $(TESTS) $(LONG) $(BENCH): private LDLIBS += $(TEST_LIBS)
 $B/tests/bench/bench_trace: private LDLIBS += -lembree3
@@ -136,7 +137,7 @@ $(PLUG): $(SHIM) $B/flags
 
 # What packets are measured against: plain scalar C, and of some the same with the x87's arithmetic
 PLAIN := $(patsubst %.c,$B/%,$(wildcard tests/bench/plain_*.c))
-X87_PLAIN := $(filter-out %_texture,$(PLAIN))
+X87_PLAIN := $(filter-out %_texture %_sky,$(PLAIN))
 $(PLAIN:$B/tests/bench/plain_%=$B/tests/bench/bench_%): $B/tests/bench/bench_%: $B/tests/bench/plain_%.o
 $(X87_PLAIN:$B/tests/bench/plain_%=$B/tests/bench/bench_%): $B/tests/bench/bench_%: $B/tests/bench/plain_%_387.o
 $(X87_PLAIN:=_387.o): private X87 := -mfpmath=387 -DPLAIN_387
@@ -209,7 +210,8 @@ bench-programs: $(BENCH)
 ## bench-lights: nanoseconds a point of each kind of light, beside plain C; appended to build/bench.log
 ## bench-brdf: nanoseconds a look-up of a measured BRDF, beside plain C; appended to build/bench.log
 ## bench-texture: nanoseconds a trilinear look-up, beside plain C; appended to build/bench.log
-bench-lights bench-brdf bench-texture: bench-%:
+## bench-sky: nanoseconds a direction of each kind of sky, beside plain C; appended to build/bench.log
+bench-lights bench-brdf bench-texture bench-sky: bench-%:
 	$Q$(MAKE) build/$(KIND)-4/tests/bench/bench_$* WIDTH=4
 	$Q$(MAKE) build/$(KIND)-1/tests/bench/bench_$* WIDTH=1
 	@{ echo "# $$(git describe --always --dirty 2>/dev/null) $(CC) $(OPT)"; \

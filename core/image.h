@@ -36,6 +36,7 @@ typedef struct image {
     image_channel *channels;
     int attribute_count;
     image_attribute *attributes;
+    const char *part; /* written: its name in a file of several; read, it is attribute "name" */
 } image;
 
 /* Writes an EXR: scanlines, ZIP, float channels, or half if `half` (values that half cannot hold
@@ -43,8 +44,15 @@ typedef struct image {
  * file carries the chromaticities of Rec. 709 with D65. Bytes depend on the contents alone. */
 bool image_write_exr(const char *path, const image *im, bool half, notices *n, lux_error *err);
 
+/* The same for several in one file, each a part by its own name: float channels. */
+bool image_write_exr_parts(const char *path, const image *parts, int count, lux_error *err);
+
 /* Reads any scanline or tiled single-part EXR into floats, with its string and float attributes. */
 bool image_read_exr(const char *path, arena *a, image *out, lux_error *err);
+
+/* The same for part number `part` (from 0) of a file with any number of them. False, with
+ * ERR_ARGUMENT, where there is no such part. */
+bool image_read_exr_part(const char *path, int part, arena *a, image *out, lux_error *err);
 
 /* Writes an 8-bit sRGB picture (PNG by its name) of width * height * 3 bytes, top row first. */
 bool image_write_rgb8(const char *path, int width, int height, const uint8_t *rgb, lux_error *err);

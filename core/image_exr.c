@@ -33,7 +33,10 @@ static const exr_attr_chromaticities_t REC709_D65 = { 0.64f, 0.33f, 0.30f,   0.6
 
 typedef struct writer {
     const char *path;
-    const image *im;
+    const image *parts;
+    int part_count;
+    const image *im; /* that of the parts which is looked at, and its number */
+    int part;
     bool half;
     int fd;
     int code; /* errno of the first write that failed; 0: none did */
@@ -80,6 +83,12 @@ static exr_result_t compress(exr_encode_pipeline_t *e)
 
 /* ---- the contents ----------------------------------------------------------------------- */
 
+static void look_at(writer *w, int part)
+{
+    w->im   = &w->parts[part];
+    w->part = part;
+}
+
 static bool name_fits(const writer *w, const char *name, lux_error *err)
 {
     size_t length = strlen(name);
@@ -100,8 +109,8 @@ static bool all_finite(const writer *w, const image_channel *c, lux_error *err)
     return true;
 }
 
-/* Whether the image can be written at all: asked before anything is created. */
-static bool writable(const writer *w, lux_error *err)
+/* Whether the part can be written at all. */
+static bool part_writable(const writer *w, lux_error *err)
 {
     const image *im = w->im;
     if (im->width < 1 || im->height < 1 || im->width > MOST_PIXELS_A_SIDE ||
@@ -124,6 +133,20 @@ static bool writable(const writer *w, lux_error *err)
     return true;
 }
 
+/* Asked before anything is created. */
+static bool writable(writer *w, lux_error *err)
+{
+    for (int p = 0; p < w->part_count; p++) {
+        look_at(w, p);
+        if (!part_writable(w, err) || (w->part_count > 1 && !name_fits(w, w->im->part, err)))
+            return false;
+        for (int q = 0; q < p; q++)
+            if (strcmp(w->parts[q].part, w->im->part) == 0)
+                return failed(err, ERR_ARGUMENT, "%s: two parts %s", w->path, w->im->part);
+    }
+    return true;
+}
+
 static bool has_long_names(const image *im)
 {
     for (int i = 0; i < im->channel_count; i++)
@@ -135,30 +158,41 @@ static bool has_long_names(const image *im)
     return false;
 }
 
-static exr_result_t set_attribute(exr_context_t exr, const image_attribute *a)
+static exr_result_t set_attribute(const writer *w, const image_attribute *a)
 {
-    return a->type == ATTRIBUTE_STRING ? exr_attr_set_string(exr, 0, a->name, a->text)
-                                       : exr_attr_set_float(exr, 0, a->name, a->number);
+    return a->type == ATTRIBUTE_STRING ? exr_attr_set_string(w->exr, w->part, a->name, a->text)
+                                       : exr_attr_set_float(w->exr, w->part, a->name, a->number);
+}
+
+static exr_result_t add_part(writer *w)
+{
+    const image *im       = w->im;
+    exr_pixel_type_t type = w->half ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
+    int added;
+    exr_result_t r = exr_add_part(w->exr, im->part, EXR_STORAGE_SCANLINE, &added);
+    if (!r)
+        r = exr_initialize_required_attr_simple(w->exr, w->part, im->width, im->height,
+                                                EXR_COMPRESSION_ZIP);
+    for (int i = 0; !r && i < im->channel_count; i++)
+        r = exr_add_channel(w->exr, w->part, im->channels[i].name, type,
+                            EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
+    if (!r)
+        r = exr_attr_set_chromaticities(w->exr, w->part, "chromaticities", &REC709_D65);
+    for (int i = 0; !r && i < im->attribute_count; i++)
+        r = set_attribute(w, &im->attributes[i]);
+    return r;
 }
 
 static exr_result_t write_header(writer *w)
 {
-    const image *im       = w->im;
-    exr_pixel_type_t type = w->half ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
-    int part;
-    exr_result_t r = exr_set_longname_support(w->exr, has_long_names(im));
-    if (!r)
-        r = exr_add_part(w->exr, NULL, EXR_STORAGE_SCANLINE, &part);
-    if (!r)
-        r = exr_initialize_required_attr_simple(w->exr, 0, im->width, im->height,
-                                                EXR_COMPRESSION_ZIP);
-    for (int i = 0; !r && i < im->channel_count; i++)
-        r = exr_add_channel(w->exr, 0, im->channels[i].name, type, EXR_PERCEPTUALLY_LOGARITHMIC, 1,
-                            1);
-    if (!r)
-        r = exr_attr_set_chromaticities(w->exr, 0, "chromaticities", &REC709_D65);
-    for (int i = 0; !r && i < im->attribute_count; i++)
-        r = set_attribute(w->exr, &im->attributes[i]);
+    bool longer = false;
+    for (int p = 0; p < w->part_count; p++)
+        longer |= has_long_names(&w->parts[p]);
+    exr_result_t r = exr_set_longname_support(w->exr, longer);
+    for (int p = 0; !r && p < w->part_count; p++) {
+        look_at(w, p);
+        r = add_part(w);
+    }
     return r ? r : exr_write_header(w->exr);
 }
 
@@ -190,9 +224,9 @@ static exr_result_t write_chunk(writer *w, int y)
     exr_chunk_info_t chunk;
     exr_encode_pipeline_t e = EXR_ENCODE_PIPELINE_INITIALIZER;
     exr_result_t (*usual)(exr_encode_pipeline_t *);
-    exr_result_t r = exr_write_scanline_chunk_info(w->exr, 0, y, &chunk);
+    exr_result_t r = exr_write_scanline_chunk_info(w->exr, w->part, y, &chunk);
     if (!r)
-        r = exr_encoding_initialize(w->exr, 0, &chunk, &e);
+        r = exr_encoding_initialize(w->exr, w->part, &chunk, &e);
     for (int c = 0; !r && c < e.channel_count; c++) {
         exr_coding_channel_info_t *to = &e.channels[c];
         to->user_bytes_per_element    = sizeof(float);
@@ -202,12 +236,12 @@ static exr_result_t write_chunk(writer *w, int y)
         to->encode_from_ptr           = (const uint8_t *)chunk_values(w, &e, c, y);
     }
     if (!r)
-        r = exr_encoding_choose_default_routines(w->exr, 0, &e);
+        r = exr_encoding_choose_default_routines(w->exr, w->part, &e);
     if (!r) {
         usual                = e.compress_fn;
         e.encoding_user_data = &usual;
         e.compress_fn        = compress;
-        r                    = exr_encoding_run(w->exr, 0, &e);
+        r                    = exr_encoding_run(w->exr, w->part, &e);
     }
     exr_encoding_destroy(w->exr, &e);
     return r;
@@ -215,10 +249,14 @@ static exr_result_t write_chunk(writer *w, int y)
 
 static exr_result_t write_chunks(writer *w)
 {
-    int lines;
-    exr_result_t r = exr_get_scanlines_per_chunk(w->exr, 0, &lines);
-    for (int y = 0; !r && y < w->im->height; y += lines)
-        r = write_chunk(w, y);
+    exr_result_t r = EXR_ERR_SUCCESS;
+    for (int p = 0; !r && p < w->part_count; p++) { /* one after the other: the library's rule */
+        int lines;
+        look_at(w, p);
+        r = exr_get_scanlines_per_chunk(w->exr, p, &lines);
+        for (int y = 0; !r && y < w->im->height; y += lines)
+            r = write_chunk(w, y);
+    }
     return r;
 }
 
@@ -289,10 +327,16 @@ static bool write_file(writer *w, lux_error *err)
 
 bool image_write_exr(const char *path, const image *im, bool half, notices *n, lux_error *err)
 {
-    writer w = { .path = path, .im = im, .half = half, .fd = -1 };
+    writer w = { .path = path, .parts = im, .part_count = 1, .half = half, .fd = -1 };
     bool ok  = writable(&w, err) && make_clamped(&w, err) && write_file(&w, err);
     arena_clear(&w.scratch);
     if (ok && half)
         notice_clamped(&w, n);
     return ok;
+}
+
+bool image_write_exr_parts(const char *path, const image *parts, int count, lux_error *err)
+{
+    writer w = { .path = path, .parts = parts, .part_count = count, .fd = -1 };
+    return writable(&w, err) && write_file(&w, err);
 }

@@ -22,6 +22,8 @@ typedef struct reader {
     size_t size;
     char message[MESSAGE_SIZE]; /* the library's first complaint */
     exr_context_t exr;
+    int part;  /* that is read */
+    bool only; /* it must be the only one */
     exr_storage_t storage;
     exr_compression_t compression;
     int32_t x, y;         /* the data window begins here */
@@ -95,13 +97,16 @@ static bool check_kind(reader *r, lux_error *err)
 {
     int parts;
     exr_result_t code = exr_get_count(r->exr, &parts);
-    if (!code && parts != 1)
+    if (!code && r->only && parts != 1)
         return failed(err, ERR_UNSUPPORTED, "%s: EXR of %d parts, one was expected", r->path,
                       parts);
+    if (!code && (r->part < 0 || r->part >= parts))
+        return failed(err, ERR_ARGUMENT, "%s: no part %d: EXR of %d parts", r->path, r->part,
+                      parts);
     if (!code)
-        code = exr_get_storage(r->exr, 0, &r->storage);
+        code = exr_get_storage(r->exr, r->part, &r->storage);
     if (!code)
-        code = exr_get_compression(r->exr, 0, &r->compression);
+        code = exr_get_compression(r->exr, r->part, &r->compression);
     if (code)
         return refused(r, code, err);
     if (r->storage != EXR_STORAGE_SCANLINE && r->storage != EXR_STORAGE_TILED)
@@ -136,7 +141,7 @@ static bool check_channels(reader *r, const exr_attr_chlist_t *list, lux_error *
 static bool check_size(reader *r, lux_error *err)
 {
     exr_attr_box2i_t window;
-    exr_result_t code = exr_get_data_window(r->exr, 0, &window);
+    exr_result_t code = exr_get_data_window(r->exr, r->part, &window);
     if (code)
         return refused(r, code, err);
     int64_t width  = (int64_t)window.max.x - window.min.x + 1;
@@ -199,7 +204,7 @@ static bool add_attribute(reader *r, arena *a, const exr_attribute_t *from, lux_
 static bool read_attributes(reader *r, arena *a, lux_error *err)
 {
     int32_t count;
-    exr_result_t code = exr_get_attribute_count(r->exr, 0, &count);
+    exr_result_t code = exr_get_attribute_count(r->exr, r->part, &count);
     if (code)
         return refused(r, code, err);
     r->im->attributes = arena_array(a, image_attribute, (size_t)count, err);
@@ -207,7 +212,7 @@ static bool read_attributes(reader *r, arena *a, lux_error *err)
         return false;
     for (int32_t i = 0; i < count; i++) {
         const exr_attribute_t *from;
-        code = exr_get_attribute_by_index(r->exr, 0, EXR_ATTR_LIST_FILE_ORDER, i, &from);
+        code = exr_get_attribute_by_index(r->exr, r->part, EXR_ATTR_LIST_FILE_ORDER, i, &from);
         if (code)
             return refused(r, code, err);
         if (!add_attribute(r, a, from, err))
@@ -222,7 +227,7 @@ static bool read_header(reader *r, arena *a, lux_error *err)
     const exr_attr_chlist_t *list;
     if (!check_kind(r, err))
         return false;
-    exr_result_t code = exr_get_channels(r->exr, 0, &list);
+    exr_result_t code = exr_get_channels(r->exr, r->part, &list);
     if (code)
         return refused(r, code, err);
     return check_channels(r, list, err) && check_size(r, err) && make_channels(r, a, list, err) &&
@@ -263,7 +268,7 @@ static bool read_chunk(reader *r, const exr_chunk_info_t *chunk, rectangle to, l
                       "not stored as its header says",
                       r->path, to.y);
     exr_decode_pipeline_t d = EXR_DECODE_PIPELINE_INITIALIZER;
-    exr_result_t code       = exr_decoding_initialize(r->exr, 0, chunk, &d);
+    exr_result_t code       = exr_decoding_initialize(r->exr, r->part, chunk, &d);
     bool same               = !code && d.channel_count == r->im->channel_count;
     for (int i = 0; same && i < d.channel_count; i++) {
         same = strcmp(d.channels[i].channel_name, r->im->channels[i].name) == 0 &&
@@ -273,9 +278,9 @@ static bool read_chunk(reader *r, const exr_chunk_info_t *chunk, rectangle to, l
     if (!code && !same)
         code = EXR_ERR_INVALID_ATTR;
     if (!code)
-        code = exr_decoding_choose_default_routines(r->exr, 0, &d);
+        code = exr_decoding_choose_default_routines(r->exr, r->part, &d);
     if (!code)
-        code = exr_decoding_run(r->exr, 0, &d);
+        code = exr_decoding_run(r->exr, r->part, &d);
     exr_decoding_destroy(r->exr, &d);
     return code ? refused(r, code, err) : true;
 }
@@ -285,13 +290,13 @@ static int smaller(int a, int b) { return a < b ? a : b; }
 static bool read_scanlines(reader *r, lux_error *err)
 {
     int32_t lines;
-    exr_result_t code = exr_get_scanlines_per_chunk(r->exr, 0, &lines);
+    exr_result_t code = exr_get_scanlines_per_chunk(r->exr, r->part, &lines);
     if (code || lines < 1)
         return refused(r, code ? code : EXR_ERR_FILE_BAD_HEADER, err);
     for (int y = 0; y < r->im->height; y += lines) {
         rectangle to = { 0, y, r->im->width, smaller(lines, r->im->height - y) };
         exr_chunk_info_t chunk;
-        code = exr_read_scanline_chunk_info(r->exr, 0, r->y + y, &chunk);
+        code = exr_read_scanline_chunk_info(r->exr, r->part, r->y + y, &chunk);
         if (code)
             return refused(r, code, err);
         if (!read_chunk(r, &chunk, to, err))
@@ -303,7 +308,7 @@ static bool read_scanlines(reader *r, lux_error *err)
 static bool read_tile(reader *r, int column, int row, rectangle to, lux_error *err)
 {
     exr_chunk_info_t chunk;
-    exr_result_t code = exr_read_tile_chunk_info(r->exr, 0, column, row, 0, 0, &chunk);
+    exr_result_t code = exr_read_tile_chunk_info(r->exr, r->part, column, row, 0, 0, &chunk);
     return code ? refused(r, code, err) : read_chunk(r, &chunk, to, err);
 }
 
@@ -311,7 +316,7 @@ static bool read_tile(reader *r, int column, int row, rectangle to, lux_error *e
 static bool read_tiles(reader *r, lux_error *err)
 {
     int32_t width, height;
-    exr_result_t code = exr_get_tile_sizes(r->exr, 0, 0, 0, &width, &height);
+    exr_result_t code = exr_get_tile_sizes(r->exr, r->part, 0, 0, &width, &height);
     if (code || width < 1 || height < 1 || width > MOST_PIXELS_A_SIDE ||
         height > MOST_PIXELS_A_SIDE)
         return refused(r, code ? code : EXR_ERR_FILE_BAD_HEADER, err);
@@ -345,15 +350,25 @@ static bool read_image(reader *r, arena *a, lux_error *err)
     return ok;
 }
 
-bool image_read_exr(const char *path, arena *a, image *out, lux_error *err)
+static bool read_file(const char *path, int part, bool only, arena *a, image *out, lux_error *err)
 {
     arena scratch = { 0 };
     image im      = { 0 };
-    reader r      = { .path = path, .im = &im };
+    reader r      = { .path = path, .part = part, .only = only, .im = &im };
     r.bytes       = file_read(&scratch, path, MOST_BYTES, &r.size, err);
     bool ok       = r.bytes && read_image(&r, a, err);
     arena_clear(&scratch);
     if (ok)
         *out = im;
     return ok;
+}
+
+bool image_read_exr(const char *path, arena *a, image *out, lux_error *err)
+{
+    return read_file(path, 0, true, a, out, err);
+}
+
+bool image_read_exr_part(const char *path, int part, arena *a, image *out, lux_error *err)
+{
+    return read_file(path, part, false, a, out, err);
 }

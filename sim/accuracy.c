@@ -54,6 +54,12 @@ double clock_seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+double deadline_share(double deadline, int left)
+{
+    double now = clock_seconds();
+    return now + fmax(deadline - now, 0.0) / left;
+}
+
 const char *run_end_text(run_end end)
 {
     static const char *const texts[] = {

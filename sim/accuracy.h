@@ -104,4 +104,7 @@ bool accuracy_run(arena *a, const accuracy_desc *d, accuracy_result *out, lux_er
 /* Seconds since some moment, steadily growing. */
 double clock_seconds(void);
 
+/* The deadline of the next of `left` runs that share what is left until one for all. */
+double deadline_share(double deadline, int left);
+
 #endif

@@ -148,6 +148,8 @@ static void print_notes(const scene_material *m)
         printf("   with holes");
     if (m->box)
         printf("   closed boxes");
+    if (m->exterior)
+        printf("   outside");
     if (!is_dark(m->emission))
         printf("   glows, %g %g %g cd/m2", (double)m->emission.x, (double)m->emission.y,
                (double)m->emission.z);
@@ -284,6 +286,16 @@ static void print_world(const scene *s, const findings *f)
                (double)w->bytes / (double)w->triangles, w->build_seconds);
 }
 
+/* Daylight is looked for everywhere, but by portals first. */
+static void print_portals(const scene *s)
+{
+    if (s->sky_count == 0 && s->sun_count == 0)
+        return;
+    fputs("portals    ", stdout);
+    print_words(stdout, s->portals_from ? s->portals_from : "none", 0, INT_MAX);
+    putchar('\n');
+}
+
 static void print_json(const scene *s, const findings *f, const group_sum *sums)
 {
     fputs("{\"study\":", stdout);
@@ -373,6 +385,7 @@ static int check_command(const command_context *c, lux_error *err)
     if (print) {
         print_world(s, &f);
         daylight_report_print(as_read, &f.daylight);
+        print_portals(s);
         print_materials(s);
         print_lights(s, &f);
         print_groups(s, &f, sums);

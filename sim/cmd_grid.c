@@ -84,23 +84,11 @@ static void print_table(const scene *s, const grid_result *r, const totals *t)
 
 /* ---- as JSON --------------------------------------------------------------------------------- */
 
-static void json_field(const char *name, double value)
-{
-    printf(",\"%s\":", name);
-    json_number(stdout, value);
-}
-
-static void json_text(const char *name, const char *value)
-{
-    printf(",\"%s\":", name);
-    json_string(stdout, value);
-}
-
 static void print_json(const grid_result *r, bool first)
 {
     fputs(first ? "{\"grids\":[{\"name\":" : ",{\"name\":", stdout);
     json_string(stdout, r->grid->name);
-    json_text("quantity", grid_quantity_name(r->grid->quantity));
+    json_field_text("quantity", grid_quantity_name(r->grid->quantity));
     json_field("sensors", r->sensor_count);
     json_field("average_lx", r->average);
     json_field("minimum_lx", r->minimum);
@@ -215,22 +203,6 @@ static int run_all(const command_context *c, const scene *s, totals *t, lux_erro
     return code == EXIT_DONE ? t->code : code;
 }
 
-/* What would stop the work in its midst is found before it begins, and before a folder is made. */
-static bool check_grids(const scene *s, const output_place *o, lux_error *err)
-{
-    const study *from = s->study;
-    bool good         = true;
-    for (int i = 0; i < from->grid_count && good; i++) {
-        arena scratch = { 0 };
-        grid_result ignored;
-        good = grid_sensors(&scratch, s, &from->grids[i], &ignored, err);
-        arena_clear(&scratch);
-    }
-    for (int i = 0; i < from->grid_count && good; i++)
-        good = output_check(from, o, from->grids[i].name, extensions, EXTENSIONS, err);
-    return good;
-}
-
 static bool begin_totals(const command_context *c, const scene *s, totals *t, lux_error *err)
 {
     int count   = s->study->grid_count;
@@ -252,7 +224,7 @@ static int grid_command(const command_context *c, lux_error *err)
         failed(err, ERR_ARGUMENT, "%s: the study has no `grids`", s->study->path);
         return EXIT_INPUT;
     }
-    if (!check_grids(s, &c->line->place, err))
+    if (!command_check_grids(s, &c->line->place, extensions, EXTENSIONS, err))
         return exit_code_of(err, true);
 
     totals t;

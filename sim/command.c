@@ -4,14 +4,19 @@
 #include "core/parallel.h"
 #include "sim/accuracy.h"
 
-const scene *command_scene(const command_context *c, lux_error *err)
+const study *command_study(const command_context *c, lux_error *err)
 {
     if (c->line->file_count != 1)
         return failed(err, ERR_ARGUMENT,
                       c->line->file_count ? "one study at a time, please"
                                           : "which study? (a .yaml file)");
+    return study_read(c->a, c->line->files[0], c->line->variant, c->notices, err);
+}
+
+const scene *command_scene(const command_context *c, lux_error *err)
+{
     scene_options o = { .threads = command_threads(c), .layered = c->line->groups };
-    const study *s  = study_read(c->a, c->line->files[0], c->line->variant, c->notices, err);
+    const study *s  = command_study(c, err);
     return s ? scene_new(c->a, s, &o, c->notices, err) : NULL;
 }
 
@@ -22,9 +27,9 @@ int command_threads(const command_context *c)
 
 run_options command_run_options(const command_context *c, int left)
 {
-    double now = clock_seconds(), end = c->begun + c->line->seconds;
+    double end = c->begun + c->line->seconds;
     return (run_options){ .accuracy    = c->line->accuracy,
-                          .deadline    = isnan(end) ? HUGE_VAL : now + fmax(end - now, 0.0) / left,
+                          .deadline    = deadline_share(isnan(end) ? HUGE_VAL : end, left),
                           .seed        = c->line->seed,
                           .threads     = command_threads(c),
                           .direct_only = c->line->direct_only,
@@ -38,6 +43,22 @@ int command_end(run_end end, const char *what, const char *name, lux_error *err)
     failed(err, end == RUN_INTERRUPTED ? ERR_INTERRUPTED : ERR_NONE, "%s %s: %s", what, name,
            run_end_text(end));
     return end == RUN_INTERRUPTED ? EXIT_INTERRUPTED : EXIT_INACCURATE;
+}
+
+bool command_check_grids(const scene *s, const output_place *o, const char *const *extensions,
+                         int count, lux_error *err)
+{
+    const study *from = s->study;
+    bool good         = true;
+    for (int i = 0; i < from->grid_count && good; i++) {
+        arena scratch = { 0 };
+        grid_result ignored;
+        good = grid_sensors(&scratch, s, &from->grids[i], &ignored, err);
+        arena_clear(&scratch);
+    }
+    for (int i = 0; i < from->grid_count && good; i++)
+        good = output_check(from, o, from->grids[i].name, extensions, count, err);
+    return good;
 }
 
 int exit_code_of(const lux_error *err, bool reading)
@@ -109,4 +130,16 @@ void json_number(FILE *to, double value)
         fprintf(to, "%.9g", value);
     else
         fputs("null", to);
+}
+
+void json_field(const char *name, double value)
+{
+    printf(",\"%s\":", name);
+    json_number(stdout, value);
+}
+
+void json_field_text(const char *name, const char *value)
+{
+    printf(",\"%s\":", name);
+    json_string(stdout, value);
 }

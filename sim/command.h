@@ -17,6 +17,14 @@ typedef enum exit_code {
     EXIT_INTERRUPTED = 130,
 } exit_code;
 
+/* Of lux4 sun: where and when. */
+typedef struct sun_line {
+    const char *place, *zone, *time;                /* NULL */
+    double altitude_m, pressure_hpa, temperature_c; /* NAN */
+    double turbidity;                               /* NAN */
+    bool day, year;
+} sun_line;
+
 /* What the words of a command line came to. */
 typedef struct command_line {
     const char *const *files; /* what is not an option, in order */
@@ -30,6 +38,10 @@ typedef struct command_line {
     double exposure_ev;                /* 0: as the picture's average asks */
     const char *plot, *write, *swatch; /* NULL */
     const char *variant;               /* of the study; NULL */
+    sun_line sun;
+    bool factor;
+    const char *date, *from, *to; /* as written; NULL */
+    double step_min;              /* NAN */
 } command_line;
 
 /* What a command runs with. */
@@ -57,7 +69,7 @@ typedef struct command {
 } command;
 
 extern const command command_grid, command_render, command_check, command_photometry,
-    command_material, command_mix, command_sky;
+    command_material, command_mix, command_sun, command_sky, command_daylight;
 
 /* Reads the words behind the command's name. False, with *err, for what cannot be. */
 bool command_line_read(arena *a, const command *c, int count, char *const *words, command_line *out,
@@ -66,7 +78,8 @@ bool command_line_read(arena *a, const command *c, int count, char *const *words
 /* The options that count for a command, one a line, as help shows them. */
 void command_options_print(FILE *to, const command *c);
 
-/* Opens the one study that the line names, and builds its scene. NULL, with *err. */
+/* Opens the one study that the line names; and builds its scene. NULL, with *err. */
+const study *command_study(const command_context *c, lux_error *err);
 const scene *command_scene(const command_context *c, lux_error *err);
 
 /* Threads to run on; and the options of a run. */
@@ -77,6 +90,11 @@ run_options command_run_options(const command_context *c, int left);
 
 /* The exit code for why a run ended, with *err saying it of `what` ("grid desk"). */
 int command_end(run_end end, const char *what, const char *name, lux_error *err);
+
+/* What would stop work on all grids in its midst, found before it begins and before a folder is
+ * made: sensors that cannot be, results GRID + extension that may not be written. */
+bool command_check_grids(const scene *s, const output_place *o, const char *const *extensions,
+                         int count, lux_error *err);
 
 /* EXIT_INPUT or EXIT_RUNTIME (or EXIT_INTERRUPTED), by the kind of error and by whether the input
  * was being read. */
@@ -94,5 +112,9 @@ void json_string(FILE *to, const char *text);
 
 /* A number as JSON: null if it is not finite. */
 void json_number(FILE *to, double value);
+
+/* One more member of an object on stdout, its comma before it. */
+void json_field(const char *name, double value);
+void json_field_text(const char *name, const char *value);
 
 #endif

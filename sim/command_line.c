@@ -10,10 +10,20 @@ typedef struct option {
     const char *help;         /* NULL: of the contract, and not built yet */
     bool own;                 /* of some commands; all others are taken by every command, so that
                                  scripts may pass them, though help names them only where they count */
+    const char *only;         /* of this command, for which it stands in for that of all; NULL */
 } option;
 
 /* Every option that users are promised. Those that are not built yet are refused by name. */
 static const option options[] = {
+    { "--place", "PLACE", "where: degrees, degrees minutes seconds, UTM, MGRS", true },
+    { "--time", "TIME", "when, in ISO 8601; with --day a date, with --year a year", true, "sun" },
+    { "--zone", "ZONE", "whose clocks: an IANA name (Europe/Moscow), or +03:00", true },
+    { "--altitude", "M", "metres above the sea (default 0)", true },
+    { "--pressure", "HPA", "of the air, which bends the light (default: standard)", true },
+    { "--temperature", "C", "of the air (default: standard)", true },
+    { "--turbidity", "T", "Linke's, of the clear sky (default 3)", true },
+    { "--day", NULL, "a table of the hours of that day", true },
+    { "--year", NULL, "a table of the days of that year", true },
     { "-o", "DIR", "put the results there (default: out/ beside the study)" },
     { "--overwrite", NULL, "replace results that are there already" },
     { "--accuracy", "P%", "how near to the truth (grids: the study's, or else 2%; views: 10%)" },
@@ -24,9 +34,16 @@ static const option options[] = {
     { "--direct-only", NULL, "leave interreflection out" },
     { "--groups", NULL, "also a layer of each group of lamps, undimmed, for lux4 mix", true },
     { "--schedule", NULL, "also the luminaires: counts, watts, lm/W, W/m2", true },
+    { "--date", "D[..D]", "this date, or all from one to another, in place of the study's `when`",
+      true },
+    { "--from", "H", "first time of the day, for instance 08:00", true },
+    { "--to", "H", "last time of the day", true },
+    { "--step", "MIN", "minutes from one time to the next (default: the study's, or else 60)",
+      true },
+    { "--factor", NULL, "the daylight factor in place of a series", true },
     { "--half", NULL, "write 16-bit floats" },
     { "--exposure", "EV", "brighter or darker preview, in stops" },
-    { "--plot", "FILE.svg", "draw it: a polar diagram, as said above", true },
+    { "--plot", "FILE.svg", "draw it, as said above", true },
     { "--swatch", "FILE.png", "render a ball of it", true },
     { "--write", "FILE", "convert to .ies or .ldt", true },
     { "--json", NULL, "results as one JSON object on stdout" },
@@ -48,11 +65,26 @@ static bool counts_for(const command *c, const char *name)
     return strstr(c->options, between) != NULL;
 }
 
+static bool is_for(const option *o, const command *c)
+{
+    return !o->only || !strcmp(o->only, c->name);
+}
+
+/* The first that is for the command. */
+static const option *find(const command *c, const char *word, size_t length)
+{
+    for (int i = 0; i < OPTIONS; i++)
+        if (is_for(&options[i], c) && strlen(options[i].name) == length &&
+            !strncmp(options[i].name, word, length))
+            return &options[i];
+    return NULL;
+}
+
 void command_options_print(FILE *to, const command *c)
 {
     for (int i = 0; i < OPTIONS; i++) {
         const option *o = &options[i];
-        if (!o->help || !counts_for(c, o->name))
+        if (!o->help || !counts_for(c, o->name) || find(c, o->name, strlen(o->name)) != o)
             continue;
         char both[40];
         bool other = c->output && !strcmp(o->name, "-o");
@@ -96,6 +128,36 @@ static bool percent(const char *text, double *out, lux_error *err)
     return true;
 }
 
+/* Of lux4 sun; *mine: the option is one of these. */
+static bool take_sun(sun_line *s, const option *o, const char *value, bool *mine, lux_error *err)
+{
+    *mine = true;
+    if (!strcmp(o->name, "--place"))
+        s->place = value;
+    else if (!strcmp(o->name, "--zone"))
+        s->zone = value;
+    else if (!strcmp(o->name, "--time") && o->only)
+        s->time = value;
+    else if (!strcmp(o->name, "--day"))
+        s->day = true;
+    else if (!strcmp(o->name, "--year"))
+        s->year = true;
+    else if (!strcmp(o->name, "--altitude"))
+        return number(o->name, value, -500.0, 9000.0, "metres from -500 to 9000", &s->altitude_m,
+                      err);
+    else if (!strcmp(o->name, "--pressure"))
+        return number(o->name, value, 0.0, 1200.0, "hPa from 0 to 1200", &s->pressure_hpa, err);
+    else if (!strcmp(o->name, "--temperature"))
+        return number(o->name, value, -100.0, 70.0, "degrees Celsius from -100 to 70",
+                      &s->temperature_c, err);
+    else if (!strcmp(o->name, "--turbidity"))
+        return number(o->name, value, 1.0, 20.0, "Linke's turbidity, from 1 to 20", &s->turbidity,
+                      err);
+    else
+        *mine = false;
+    return true;
+}
+
 static bool take(command_line *l, const char *name, const char *value, lux_error *err)
 {
     double n;
@@ -127,6 +189,17 @@ static bool take(command_line *l, const char *name, const char *value, lux_error
         l->write = value;
     } else if (!strcmp(name, "--variant")) {
         l->variant = value;
+    } else if (!strcmp(name, "--date")) {
+        l->date = value;
+    } else if (!strcmp(name, "--from")) {
+        l->from = value;
+    } else if (!strcmp(name, "--to")) {
+        l->to = value;
+    } else if (!strcmp(name, "--step")) {
+        return number(name, value, 1.0 / 60.0, 1440.0, "minutes, a second to a day", &l->step_min,
+                      err);
+    } else if (!strcmp(name, "--factor")) {
+        l->factor = true;
     } else if (!strcmp(name, "--overwrite")) {
         l->place.overwrite = true;
     } else if (!strcmp(name, "--direct-only")) {
@@ -147,21 +220,13 @@ static bool take(command_line *l, const char *name, const char *value, lux_error
 
 /* ---- words ----------------------------------------------------------------------------------- */
 
-static const option *find(const char *word, size_t length)
-{
-    for (int i = 0; i < OPTIONS; i++)
-        if (strlen(options[i].name) == length && !strncmp(options[i].name, word, length))
-            return &options[i];
-    return NULL;
-}
-
 /* An option, with its value behind = or as the next word; *at moves on to the last word used. */
 static bool read_option(const command *c, int count, char *const *words, int *at, command_line *out,
                         lux_error *err)
 {
     const char *word   = words[*at];
     const char *equals = word[1] == '-' ? strchr(word, '=') : NULL;
-    const option *o    = find(word, equals ? (size_t)(equals - word) : strlen(word));
+    const option *o    = find(c, word, equals ? (size_t)(equals - word) : strlen(word));
     if (!o)
         return failed(err, ERR_ARGUMENT, "unknown option %s (lux4 help %s lists them)", word,
                       c->name);
@@ -182,14 +247,23 @@ static bool read_option(const command *c, int count, char *const *words, int *at
         return failed(err, ERR_ARGUMENT, "%s takes no value", o->name);
     if (wanted && wanted == c->output && !value[0])
         return failed(err, ERR_ARGUMENT, "%s: expected %s behind it", o->name, wanted);
-    return take(out, o->name, value, err);
+    bool mine;
+    return take_sun(&out->sun, o, value, &mine, err) && (mine || take(out, o->name, value, err));
 }
 
 bool command_line_read(arena *a, const command *c, int count, char *const *words, command_line *out,
                        lux_error *err)
 {
-    *out = (command_line){ .seed = 1, .accuracy = (double)NAN, .seconds = (double)NAN };
-    const char **files = arena_array(a, const char *, (size_t)count + 1, err);
+    const double unsaid = (double)NAN;
+    *out                = (command_line){ .seed     = 1,
+                                          .accuracy = unsaid,
+                                          .seconds  = unsaid,
+                                          .step_min = unsaid,
+                                          .sun      = { .altitude_m    = unsaid,
+                                                        .pressure_hpa  = unsaid,
+                                                        .temperature_c = unsaid,
+                                                        .turbidity     = unsaid } };
+    const char **files  = arena_array(a, const char *, (size_t)count + 1, err);
     if (!files)
         return false;
     bool only_files = false;

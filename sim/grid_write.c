@@ -8,6 +8,12 @@
 #include <stdio.h>
 #include <string.h>
 
+void grid_write_place(FILE *to, const grid_sensor *at)
+{
+    fprintf(to, "%.12g,%.12g,%.12g,%.12g,%.12g,%.12g", at->at.x, at->at.y, at->at.z, at->normal.x,
+            at->normal.y, at->normal.z);
+}
+
 bool grid_write_csv(const char *path, const scene *s, const grid_result *r, lux_error *err)
 {
     output_file f;
@@ -18,10 +24,9 @@ bool grid_write_csv(const char *path, const scene *s, const grid_result *r, lux_
         fprintf(f.stream, ",%s_lx", s->groups[l]);
     fputc('\n', f.stream);
     for (int k = 0; k < r->sensor_count; k++) {
-        const grid_sensor *at = &r->sensors[k];
-        fprintf(f.stream, "%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.9g,%.9g,%.9g,%.9g", at->at.x,
-                at->at.y, at->at.z, at->normal.x, at->normal.y, at->normal.z, r->illuminance[k],
-                r->direct[k], r->indirect[k], r->half_width[k]);
+        grid_write_place(f.stream, &r->sensors[k]);
+        fprintf(f.stream, ",%.9g,%.9g,%.9g,%.9g", r->illuminance[k], r->direct[k], r->indirect[k],
+                r->half_width[k]);
         for (int l = 0; l < r->layer_count; l++)
             fprintf(f.stream, ",%.9g", r->layers[l].illuminance[k]);
         fputc('\n', f.stream);
@@ -32,6 +37,17 @@ bool grid_write_csv(const char *path, const scene *s, const grid_result *r, lux_
 }
 
 /* ---- EXR ------------------------------------------------------------------------------------- */
+
+float *grid_pixels(arena *a, const grid_result *r, const double *values, double all, lux_error *err)
+{
+    float *pixels = arena_array(a, float, (size_t)r->columns *(size_t)r->rows, err);
+    for (int k = 0; pixels && k < r->sensor_count; k++) {
+        int row = r->rows - 1 - r->cell[k] / r->columns, column = r->cell[k] % r->columns;
+        pixels[(size_t)row * (size_t)r->columns + (size_t)column] =
+            (float)(values ? values[k] : all);
+    }
+    return pixels;
+}
 
 /* Channels as they are made: names and values live in the arena. */
 typedef struct exr_work {
@@ -45,13 +61,7 @@ typedef struct exr_work {
 /* A channel of `values` by sensor, or of `otherwise` where they are NULL; cells without one: 0. */
 static bool add_channel(exr_work *w, const char *name, const double *values, double otherwise)
 {
-    const grid_result *r = w->r;
-    float *pixels        = arena_array(&w->a, float, (size_t)r->columns *(size_t)r->rows, w->err);
-    for (int k = 0; pixels && k < r->sensor_count; k++) {
-        int row = r->rows - 1 - r->cell[k] / r->columns, column = r->cell[k] % r->columns;
-        pixels[(size_t)row * (size_t)r->columns + (size_t)column] =
-            (float)(values ? values[k] : otherwise);
-    }
+    float *pixels           = grid_pixels(&w->a, w->r, values, otherwise, w->err);
     w->channels[w->count++] = (image_channel){ name, pixels };
     return pixels != NULL;
 }

@@ -6,6 +6,16 @@
 #include "sim/grid.h"
 #include "sim/output.h"
 
+#include <stdio.h>
+
+/* The columns that tables of grids begin with, x,y,z,nx,ny,nz, to 12 digits, no comma behind. */
+void grid_write_place(FILE *to, const grid_sensor *at);
+
+/* Values by sensor (NULL: `all` for each) as pixels of a picture, the top row having the largest v;
+ * cells without a sensor are 0. NULL, with *err, if memory is out. */
+float *grid_pixels(arena *a, const grid_result *r, const double *values, double all,
+                   lux_error *err);
+
 /* A row a sensor: x,y,z,nx,ny,nz to 12 digits, illuminance_lx,direct_lx,indirect_lx,half_width_lx
  * to 9, and in a layered scene NAME_lx of each group, undimmed. A run that was interrupted ends
  * with a line "# partial: ...". */

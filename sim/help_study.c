@@ -46,6 +46,12 @@ static const char text[] =
 "room           a box with a corner at the origin\n"
 "  size         [m, m, m]       (!)         along x, y, z\n"
 "  reflectance  0 to 1, RGB     (!)         or {ceiling: , walls: , floor: }\n"
+"  windows      a list, each with\n"
+"    wall       south, east, north, west, ceiling, floor (!)\n"
+"    at         [m, m]          (!)         from the wall's left end seen from inside, sill; of\n"
+"                                           ceiling and floor: x, y of its lower corner\n"
+"    size       [m, m]          (!)         width, height; along x, along y\n"
+"    transmittance  0 to 0.9183 1           of a single pane; 1: an open hole\n"
 "\n"
 "scene          FILE, or a mapping, or a list: glTF 2.0; its (x, y, z) becomes (x, -z, y)\n"
 "  file         path            (!)         .glb or .gltf\n"
@@ -53,6 +59,8 @@ static const char text[] =
 "  at           PLACES, m       [0, 0, 0]   one copy at each\n"
 "  rotate       degrees         0           counter-clockwise seen from above\n"
 "  lights       on, off         on          the lights in the file\n"
+"  exterior     patterns                    of nodes or materials: what is outside\n"
+"  portals      patterns        found       of nodes or materials: what daylight comes in by\n"
 "\n"
 "luminaires     a list: measured lamps; each has one of at, layout and nodes\n"
 "  photometry   path            (!)         .ies (LM-63) or .ldt (EULUMDAT)\n"
@@ -135,9 +143,7 @@ static const char text[] =
 "  size         [px, px]        [1024, 768] with camera: the height follows the camera\n"
 "\n"
 "variants       {NAME: {changed keys}, ...}: merged by key with --variant NAME; what is no\n"
-"               mapping is replaced, ~ takes a key out\n"
-"\n"
-"Not supported yet: room: windows; scene: exterior, portals.\n";
+"               mapping is replaced, ~ takes a key out\n";
 /* clang-format on */
 
 void help_study(FILE *to) { fputs(text, to); }

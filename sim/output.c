@@ -61,7 +61,7 @@ char *output_path(arena *a, const study *s, const output_place *o, const char *n
 static bool made_by(arena *a, const char *path, const study *s)
 {
     image im;
-    if (!image_read_exr(path, a, &im, NULL))
+    if (!image_read_exr_part(path, 0, a, &im, NULL))
         return false;
     for (int i = 0; i < im.attribute_count; i++) {
         const image_attribute *at = &im.attributes[i];

@@ -273,5 +273,7 @@ const scene *scene_new(arena *a, const study *from, const scene_options *o, noti
     say_what_lights_are(s);
     s->small_patches = scene_small_patches(s, n);
     scene_find_focus(s, n);
+    if (!scene_find_glints(s, n, err))
+        return NULL;
     return s;
 }

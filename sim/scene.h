@@ -132,6 +132,7 @@ typedef struct scene {
     const portals *portals; /* what they come in by; NULL: none known */
     int portal_count;
     const portal *portal_list;
+    const char *portals_from; /* "2 room windows"; NULL: there are none */
     bool exteriors; /* some surface is outside */
 
     int group_count; /* of lamps; "other" holds those that are in none */
@@ -159,6 +160,7 @@ typedef struct scene {
     uint64_t picture_bytes; /* of the largest picture decoded, while its texture is made */
     bool mirrors;           /* some material in use reflects as a mirror does */
     bool mirrors_hide;      /* light of small lights that comes by way of those is not found */
+    bool glints;            /* so is the suns', and it matters */
     int small_patches;      /* lamps that light a patch too small for samples to find reliably */
 } scene;
 

@@ -244,4 +244,7 @@ int scene_small_patches(const scene *s, notices *n);
  * (scene_focus.c). */
 void scene_find_focus(scene *s, notices *n);
 
+/* Sunlight by way of mirrors and panes (scene_glint.c), once portals are known. */
+bool scene_find_glints(scene *s, notices *n, lux_error *err);
+
 #endif

@@ -329,6 +329,8 @@ const char *scene_left_to_chance(const scene *s, bool direct_only)
     if (!direct_only && s->mirrors_hide)
         return "light of small lights that comes by way of mirrors or smooth surfaces is rarely "
                "found";
+    if (!direct_only && s->glints)
+        return "sunlight that comes by way of mirrors, panes or smooth surfaces is not found";
     if (s->solids && (s->light_count > 0 || s->emitter_count > 0))
         return "light that bends in solids of glass is taken to pass them straight";
     return NULL;

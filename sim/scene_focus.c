@@ -73,6 +73,8 @@ static const char *hidden_light(const scene *s, double share)
 {
     double needed = face_needed(s, share), glowing = 0.0;
     for (int l = 0; l < s->light_count; l++) {
+        if (s->light_info[l].sun) /* scene_glint.c looks after those */
+            continue;
         const light *lamp = s->lights[l];
         light_bounds b    = light_bounds_of(lamp);
         bool found        = light_has_extent(lamp) && !b.far && face_of(lamp) >= needed;

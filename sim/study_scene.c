@@ -42,10 +42,15 @@ static bool read_scene_at(const study_reader *r, const yaml_node_t *value, void 
     return (s->at = study_read_places(r, value, &s->at_count)) != NULL;
 }
 
+enum { MOST_PATTERNS = 100 }; /* each is held against all nodes */
+
 /* One pattern, or a list of them. */
 static bool read_patterns(const study_reader *r, const yaml_node_t *value, const char ***out,
                           int *count)
 {
+    if (value->type == YAML_SEQUENCE_NODE && study_items(value) > MOST_PATTERNS)
+        return study_node_failed(r, value, ERR_ARGUMENT, "%d patterns, expected at most %d",
+                                 study_items(value), MOST_PATTERNS);
     if (value->type == YAML_SEQUENCE_NODE)
         return (*out = study_read_list(r, value, sizeof(char *), study_read_text, count)) != NULL;
     *out   = arena_new(r->a, const char *, r->err);

@@ -77,6 +77,13 @@ void svg_title(FILE *out, double x, double y, double width, const char *title)
     fprintf(out, "%s</text>\n", title[bytes] ? "…" : "");
 }
 
+void svg_words(FILE *out, double x, double y, double size, const char *words)
+{
+    fprintf(out, "<text x=\"%g\" y=\"%g\" font-size=\"%g\" text-anchor=\"middle\">", x, y, size);
+    xml_text(out, words, strlen(words));
+    fprintf(out, "</text>\n");
+}
+
 /* ---- polar diagrams --------------------------------------------------------------------- */
 
 void svg_polar_scale(svg_polar *p, double most)

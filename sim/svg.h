@@ -15,6 +15,9 @@ void svg_end(FILE *out);
 /* Text of the user's or a file's, middle at x: as large as fits in `width`; too long, it is cut. */
 void svg_title(FILE *out, double x, double y, double width, const char *title);
 
+/* The same of a given size and at full length. */
+void svg_words(FILE *out, double x, double y, double size, const char *words);
+
 /* 1, 2, 2.5 or 5 times a power of ten, so that at most six steps hold `most` (> 0). */
 double svg_step(double most);
 

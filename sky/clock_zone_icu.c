@@ -96,7 +96,7 @@ static int changes_list(UCalendar *c, clock_change change[MOST_CHANGES])
 {
     UErrorCode status = U_ZERO_ERROR;
     UDate next;
-    change[0] = (clock_change){ -INFINITY, offset_of(c, FIRST_MOMENT, &status) };
+    change[0] = (clock_change){ -(double)INFINITY, offset_of(c, FIRST_MOMENT, &status) };
     int count = 1;
     while (ucal_getTimeZoneTransitionDate(c, UCAL_TZ_TRANSITION_NEXT, &next, &status) &&
            U_SUCCESS(status) && next / 1000.0 < LAST_MOMENT) {
@@ -126,7 +126,7 @@ const clock_zone *clock_zone_new(arena *a, const char *text, lux_error *err)
     int offset;
     const char *end = text;
     if (clock_read_offset(&end, &offset) && !*end)
-        return zone_new(a, &(clock_change){ -INFINITY, offset }, 1, err);
+        return zone_new(a, &(clock_change){ -(double)INFINITY, offset }, 1, err);
 
     char nearest[MOST_NAME + 1];
     if (!name_find(text, nearest))

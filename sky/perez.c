@@ -21,8 +21,9 @@
  *     efficacy = A + B W + C exp(5.73 Z_s - 5) + D delta, >= 0                direct normal
  *
  * with W = exp(0.07 T - 0.075) cm of water, T the dew point in C. Borders: delta within 0.01 ...
- * 0.6; in bins 2 to 5 the shape takes at least 0.2, as its authors' program has it: below, the
- * gradation grows without bound toward the horizon. Where b still comes out above 0, it is 0.
+ * 0.6; in bins 2 to 5 the shape takes at least 0.2, as gendaylit of Radiance has it. Elsewhere,
+ * too, there is weather, hardly ever seen, of which the gradation grows without bound toward the
+ * horizon (b > 0) or leaves the zenith black: there delta is moved toward 0.2 as far as it takes.
  */
 #include "core/color.h"
 #include "sky/gradation.h"
@@ -117,9 +118,9 @@ static weather weather_of(const perez_desc *d, double zenith)
     return w;
 }
 
-static gradation shape_of(const weather *w, bool *clamped)
+static gradation shape_at(const weather *w, double delta)
 {
-    double x[5], z = w->zenith, delta = w->shape_delta;
+    double x[5], z = w->zenith;
     for (int i = 0; i < 5; i++) {
         const double *k = shapes[w->bin][i];
         x[i]            = k[0] + k[1] * z + delta * (k[2] + k[3] * z);
@@ -129,8 +130,24 @@ static gradation shape_of(const weather *w, bool *clamped)
         x[2] = exp(pow(delta * (c[0] + c[1] * z), c[2])) - c[3];
         x[3] = -exp(delta * (d[0] + d[1] * z)) + d[2] + delta * d[3];
     }
-    *clamped |= x[1] > 0.0;
-    return (gradation){ x[0], fmin(x[1], 0.0), 1.0, x[2], x[3], x[4] };
+    return (gradation){ x[0], x[1], 1.0, x[2], x[3], x[4] };
+}
+
+/* The shape at the weather's delta, or at the nearest toward 0.2 that is finite at the horizon and
+ * leaves the zenith some light. */
+static gradation shape_of(const weather *w, bool *clamped)
+{
+    const double safe = 0.2, step = 0.01;
+    double delta = w->shape_delta;
+    gradation g  = shape_at(w, delta);
+    while ((g.b > 0.0 || 1.0 + g.a * exp(g.b) <= 0.0) && delta != safe) {
+        delta    = fabs(delta - safe) < step ? safe : delta + copysign(step, safe - delta);
+        g        = shape_at(w, delta);
+        *clamped = true;
+    }
+    *clamped |= g.b > 0.0;
+    g.b = fmin(g.b, 0.0);
+    return g;
 }
 
 static bool is_good(const perez_desc *d, lux_error *err)

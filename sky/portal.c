@@ -91,8 +91,9 @@ static void add_chances(drawing *d, const portals *all, int which, const vvec3 *
         vmask in_front = active & (v.z > 0.0f);
         if (!vany(in_front))
             continue;
-        portal_box box = portal_table_box(&f->table, &v, in_front);
-        vfloat chance  = vkeep(box.seen, box.light * highest(&v, &normal));
+        portal_box box;
+        portal_table_box(&f->table, &v, in_front, &box);
+        vfloat chance = vkeep(box.seen, box.light * highest(&v, &normal));
 
         /* The new one is drawn with its share of all so far; what is left of pick goes on */
         vfloat total = d->total + chance;
@@ -129,11 +130,12 @@ static vfloat density(const portals *all, const vvec3 *p, const vvec3 *n, const 
             vmask through = active & crosses(&v, &w);
             if (!vany(through))
                 continue;
-            portal_box box = portal_table_box(&f->table, &v, through);
-            vfloat chance  = box.light * highest(&v, &normal);
-            vmask drawn    = box.seen & (chance > 0.0f);
-            vfloat of_one  = portal_table_density(&f->table, &box, &w, drawn);
-            sum            = sum + vkeep(drawn, chance / total * of_one);
+            portal_box box;
+            portal_table_box(&f->table, &v, through, &box);
+            vfloat chance = box.light * highest(&v, &normal);
+            vmask drawn   = box.seen & (chance > 0.0f);
+            vfloat of_one = portal_table_density(&f->table, &box, &w, drawn);
+            sum           = sum + vkeep(drawn, chance / total * of_one);
         }
     }
     return sum;
@@ -146,11 +148,12 @@ static vvec3 direction(const portals *all, const placed *d, const vvec3 *p, vflo
     const facade *f = &all->facades[d->facade];
     vvec3 place     = turn(&f->table, p);
     portal_view v   = look(d, &place);
-    portal_box box  = portal_table_box(&f->table, &v, active);
-    vvec3 w         = portal_table_draw(&f->table, &box, s, t);
-    vvec3 wi        = turn_back(&f->table, &w);
-    wi              = vnormalize(wi);
-    w               = turn(&f->table, &wi);
+    portal_box box;
+    portal_table_box(&f->table, &v, active, &box);
+    vvec3 w  = portal_table_draw(&f->table, &box, s, t);
+    vvec3 wi = turn_back(&f->table, &w);
+    wi       = vnormalize(wi);
+    w        = turn(&f->table, &wi);
 
     /* Where rounding took it past the frame: to the middle of it */
     vmask past = box.seen & ~crosses(&v, &w);
@@ -204,8 +207,11 @@ vmask portals_cross(const portals *all, const vvec3 *p, const vvec3 *wi, vmask a
         for (int k = f->first; k < f->first + f->count && vany(out & ~found); k++) {
             portal_view v = look(&all->all[k], &place);
             vmask through = out & ~found & crosses(&v, &w);
-            if (vany(through))
-                found = found | portal_table_box(&f->table, &v, through).seen;
+            if (!vany(through))
+                continue;
+            portal_box box;
+            portal_table_box(&f->table, &v, through, &box);
+            found = found | box.seen;
         }
     }
     return found;

@@ -22,7 +22,7 @@ static vfloat half_tangent(vfloat x, vfloat z, vfloat r) { return x / (z + r); }
 
 /* From x - half to x + half. What lies between both ends is worked out by itself: of ends far away
  * the difference has few digits. */
-static portal_span span_of(vfloat x, vfloat half, vfloat z, int cells, vmask *wide)
+static inline void span_of(vfloat x, vfloat half, vfloat z, int cells, vmask *wide, portal_span *s)
 {
     vfloat x0 = x - half, x1 = x + half;
     vfloat r0 = vsqrt(x0 * x0 + z * z), r1 = vsqrt(x1 * x1 + z * z);
@@ -40,15 +40,15 @@ static portal_span span_of(vfloat x, vfloat half, vfloat z, int cells, vmask *wi
     vint last  = vto_int(vkeep(*wide, vmin(end, vsplat((float)(cells - 1)))));
     vmask one  = first == last;
 
-    portal_span s = { .low = a0, .width = width * scale };
-    s.edge[0]     = first;
-    s.edge[1]     = first + 1;
-    s.edge[2]     = vselect_int(one, first + 1, last);
-    s.edge[3]     = vselect_int(one, first + 1, last + 1);
-    s.last        = vkeep(~one, end - vto_float(last));
-    vfloat before = s.width - s.last - vto_float(s.edge[2] - s.edge[1]);
-    s.first       = vmax(before, vsplat(0.0f));
-    return s;
+    s->low        = a0;
+    s->width      = width * scale;
+    s->edge[0]    = first;
+    s->edge[1]    = first + 1;
+    s->edge[2]    = vselect_int(one, first + 1, last);
+    s->edge[3]    = vselect_int(one, first + 1, last + 1);
+    s->last       = vkeep(~one, end - vto_float(last));
+    vfloat before = s->width - s->last - vto_float(s->edge[2] - s->edge[1]);
+    s->first      = vmax(before, vsplat(0.0f));
 }
 
 static vint sum_at(const portal_table *t, vint i, vint j)
@@ -56,20 +56,19 @@ static vint sum_at(const portal_table *t, vint i, vint j)
     return vgather_int(t->sums, j * (t->cells + 1) + i);
 }
 
-portal_box portal_table_box(const portal_table *t, const portal_view *v, vmask active)
+void portal_table_box(const portal_table *t, const portal_view *v, vmask active, portal_box *box)
 {
-    portal_box box = { .seen = active & (v->z > 0.0f) };
-    box.a          = span_of(v->x, v->half_x, v->z, t->cells, &box.seen);
-    box.b          = span_of(v->y, v->half_y, v->z, t->cells, &box.seen);
+    vmask seen = active & (v->z > 0.0f);
+    span_of(v->x, v->half_x, v->z, t->cells, &seen, &box->a);
+    span_of(v->y, v->half_y, v->z, t->cells, &seen, &box->b);
 
     /* All that its cells hold, by how much of them it covers */
-    vint i0 = vkeep_int(box.seen, box.a.edge[0]), i1 = vkeep_int(box.seen, box.a.edge[3]);
-    vint j0 = vkeep_int(box.seen, box.b.edge[0]), j1 = vkeep_int(box.seen, box.b.edge[3]);
+    vint i0 = vkeep_int(seen, box->a.edge[0]), i1 = vkeep_int(seen, box->a.edge[3]);
+    vint j0 = vkeep_int(seen, box->b.edge[0]), j1 = vkeep_int(seen, box->b.edge[3]);
     vint count = (sum_at(t, i1, j1) - sum_at(t, i0, j1)) - (sum_at(t, i1, j0) - sum_at(t, i0, j0));
-    vfloat covered = box.a.width * box.b.width / vto_float((i1 - i0) * (j1 - j0));
-    box.light      = vkeep(box.seen, t->unit * covered * vto_float(count));
-    box.seen       = box.seen & (box.light > 0.0f);
-    return box;
+    vfloat covered = box->a.width * box->b.width / (vto_float(i1 - i0) * vto_float(j1 - j0));
+    box->light     = vkeep(seen, t->unit * covered * vto_float(count));
+    box->seen      = seen & (box->light > 0.0f);
 }
 
 /* The sums of one step of b, at the four edges along a. */

@@ -51,7 +51,7 @@ typedef struct portal_box {
 } portal_box;
 
 /* Lanes that are not active are not seen. */
-portal_box portal_table_box(const portal_table *t, const portal_view *v, vmask active);
+void portal_table_box(const portal_table *t, const portal_view *v, vmask active, portal_box *box);
 
 /* A direction through the box, not of unit length, in the frame of the portal. */
 vvec3 portal_table_draw(const portal_table *t, const portal_box *box, vfloat s, vfloat q);

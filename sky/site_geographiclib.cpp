@@ -7,6 +7,7 @@
 #include "core/text.h"
 
 #include <GeographicLib/GeoCoords.hpp>
+#include <GeographicLib/Math.hpp>
 
 #include <cmath>
 #include <cstring>
@@ -34,7 +35,7 @@ try {
     double latitude = place.Latitude(), longitude = place.Longitude();
     if (!std::isfinite(latitude) || !std::isfinite(longitude)) // "nan nan", "INVALID"
         return refuse(text, "not a number", err);
-    *out = { latitude, longitude, 0.0 };
+    *out = { latitude, GeographicLib::Math::AngNormalize(longitude), 0.0 };
     return true;
 } catch (const std::bad_alloc &) {
     return failed(err, ERR_MEMORY, "out of memory reading a place");

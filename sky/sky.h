@@ -59,7 +59,7 @@ typedef struct perez_desc {
     double diffuse_horizontal; /* W/m^2 of broadband radiation, > 0 */
     double dew_point_c;        /* of the air at the ground, for its water; NAN: 11 C */
     double distance_au;        /* of the sun: 1 +- 0.017 */
-    double altitude_m;         /* of the site, for the mass of air */
+    double altitude_m;         /* not looked at: the paper's mass of air is that at the sea */
     vec3 color;
 } perez_desc;
 /* What it comes to by the luminous efficacies of Perez, Ineichen, Seals, Michalsky and Stewart

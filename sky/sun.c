@@ -127,7 +127,7 @@ static sun_air air_at(const site *s, const sun_air *given)
 {
     double altitude = 6356766.0 * s->altitude_m / (6356766.0 + s->altitude_m);
     double kelvin   = 288.15 - 0.0065 * altitude;
-    sun_air air     = given ? *given : (sun_air){ NAN, NAN };
+    sun_air air     = given ? *given : (sun_air){ (double)NAN, (double)NAN };
     if (isnan(air.pressure_hpa))
         air.pressure_hpa = 1013.25 * pow(kelvin / 288.15, 9.80665 / (287.05287 * 0.0065));
     if (isnan(air.temperature_c))

@@ -57,14 +57,16 @@ static double date_begins(const clock_zone *z, double midnight)
 static bool date_bounds(const clock_zone *z, const civil_time *date, double bound[2],
                         lux_error *err)
 {
+    if (date->year < 1900 || date->year > 2100)
+        return failed(err, ERR_ARGUMENT, "year %d: 1900 to 2100 is expected", date->year);
+
     civil_time day  = { .year = date->year, .month = date->month, .day = date->day };
-    double midnight = clock_from_civil(&day);
+    bool month_is   = day.month >= 1 && day.month <= 12;
+    double midnight = month_is ? clock_from_civil(&day) : 0.0;
     civil_time same = clock_local(NULL, midnight);
     if (same.year != day.year || same.month != day.month || same.day != day.day)
         return failed(err, ERR_ARGUMENT, "%04d-%02d-%02d is no date of the calendar", date->year,
                       date->month, date->day);
-    if (day.year < 1900 || day.year > 2100)
-        return failed(err, ERR_ARGUMENT, "year %d: 1900 to 2100 is expected", day.year);
 
     bound[0] = date_begins(z, midnight);
     bound[1] = date_begins(z, midnight + 24.0 * HOUR);
@@ -170,10 +172,10 @@ bool sun_day_of(const site *s, const clock_zone *z, const civil_time *date, sun_
         !sun_at_next(&w.series, s, NULL, bound[0], &first, err))
         return false;
 
-    *out = (sun_day){ .sunrise               = NAN,
-                      .sunset                = NAN,
-                      .transit               = NAN,
-                      .transit_elevation_deg = NAN,
+    *out = (sun_day){ .sunrise               = (double)NAN,
+                      .sunset                = (double)NAN,
+                      .transit               = (double)NAN,
+                      .transit_elevation_deg = (double)NAN,
                       .always_up             = true,
                       .always_down           = true };
     count_day(&w, bound, out);

@@ -3,64 +3,45 @@
 
 #include <math.h>
 
-static const double pi = 3.14159265358979324;
-
-vec3 sky_twin_sun(double elevation_deg)
+double sky_twin_luminance(const sky_twin *s, const double w[3])
 {
-    double h = elevation_deg * pi / 180, c = elevation_deg == 90 ? 0 : cos(h);
-    return (vec3){ (float)(0.6 * c), (float)(-0.8 * c), (float)sin(h) };
+    switch (s->kind) {
+    case TWIN_BLACK:
+        return 0.0;
+    case TWIN_EVEN:
+        return 1.0;
+    case TWIN_SMOOTH:
+        return 2.0 + w[0] + 0.5 * w[2];
+    case TWIN_SUNNY:
+        return w[2] > 0.0
+                   ? 1.0 + 1000.0 * exp(50.0 * (0.6 * w[0] + 0.64 * w[1] + 0.48 * w[2] - 1.0))
+                   : 0.0;
+    default:;
+        const int columns = s->base.columns, rows = s->base.rows;
+        int column = (int)((atan2(w[0], w[1]) / M_PI + 1.0) * 0.5 * columns);
+        int row    = (int)(atan2(hypot(w[0], w[1]), w[2]) / M_PI * rows);
+        column     = column < columns ? column : columns - 1;
+        row        = row < rows ? row : rows - 1;
+        return (double)s->pixel[(size_t)row * (size_t)columns + (size_t)column];
+    }
 }
 
-double sky_twin_at(const sky_twin *t, const double w[3])
+static vrgb radiance(const sky *self, const vvec3 *wi, vmask active)
 {
-    const double *s = t->sun;
-    double x = w[1] * s[2] - w[2] * s[1], y = w[2] * s[0] - w[0] * s[2],
-           z   = w[0] * s[1] - w[1] * s[0];
-    double dot = w[0] * s[0] + w[1] * s[1] + w[2] * s[2];
-    double chi = atan2(sqrt(x * x + y * y + z * z), dot);
-    if (w[2] < 0)
-        return 0;
-    double g = t->a == 0 ? 1 : w[2] > 0 ? 1 + t->a * exp(t->b / w[2]) : 1;
-    double f = t->f0 + t->c * exp(t->d * chi) + t->e * cos(chi) * cos(chi);
-    return fmax(g * f, 0);
+    const sky_twin *s = (const sky_twin *)self;
+    float y[LANES];
+    for (int i = 0; i < LANES; i++) {
+        double w[3] = { (double)lane(wi->x, i), (double)lane(wi->y, i), (double)lane(wi->z, i) };
+        y[i]        = lane(active, i) ? (float)sky_twin_luminance(s, w) : 0.0f;
+    }
+    return (vrgb){ vload(y), vload(y), vload(y) };
 }
 
-double sky_twin_level(const sky_twin *t, int rings)
-{
-    double sum = 0;
-    for (int i = 0; i < rings; i++)
-        for (int j = 0; j < 2 * rings; j++) {
-            double r = sqrt((i + 0.5) / rings), phi = pi * (j + 0.5) / rings;
-            double way[3] = { r * cos(phi), r * sin(phi), sqrt(1 - r * r) };
-            sum += sky_twin_at(t, way);
-        }
-    return sum * pi / (2.0 * rings * rings);
-}
+static const sky_type twin_type = { "twin", radiance };
 
-double sky_green(const sky *s, vec3 way)
+sky_twin sky_twin_of(twin_kind kind, const float *pixel, int columns, int rows)
 {
-    vvec3 wi = vspread(way);
-    return (double)lane(sky_radiance(s, &wi, ALL_LANES).y, 0);
-}
-
-double sky_on_tilted(const sky *s, double tilt_deg, int rows)
-{
-    double tilt = tilt_deg * pi / 180, nx = sin(tilt), nz = cos(tilt), sum = 0;
-    for (int i = 0; i < rows; i++)
-        for (int j = 0; j < 2 * rows; j += LANES) {
-            float x[LANES], y[LANES], z[LANES];
-            double cosine[LANES];
-            for (int k = 0; k < LANES; k++) {
-                double theta = pi * (i + 0.5) / rows, phi = pi * (j + k + 0.5) / rows;
-                x[k]      = (float)(sin(theta) * cos(phi));
-                y[k]      = (float)(sin(theta) * sin(phi));
-                z[k]      = (float)cos(theta);
-                cosine[k] = fmax(nx * (double)x[k] + nz * (double)z[k], 0) * sin(theta);
-            }
-            vvec3 wi = { vload(x), vload(y), vload(z) };
-            vrgb l   = sky_radiance(s, &wi, ALL_LANES);
-            for (int k = 0; k < LANES; k++)
-                sum += cosine[k] * (double)lane(l.y, k);
-        }
-    return sum * (pi / rows) * (pi / rows);
+    return (sky_twin){ .base  = { .type = &twin_type, .columns = columns, .rows = rows },
+                       .kind  = kind,
+                       .pixel = pixel };
 }

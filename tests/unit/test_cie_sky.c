@@ -1,8 +1,8 @@
 /* tests/unit/test_cie_sky.c -- the skies of CIE S 011, the traditional one, and the ground. */
 #include "sky/gradation.h"
 #include "tests/shapes.h"
-#include "tests/sky_twin.h"
 #include "tests/test.h"
+#include "tests/two_angle_twin.h"
 
 static const double pi = 3.14159265358979324;
 
@@ -16,23 +16,24 @@ static const double parameters[16][5] = {
     { -1, -0.15, 24, -2.8, 0.15 },
 };
 
-static sky_twin twin_of(int type, vec3 sun)
+static angle_twin twin_of(int type, vec3 sun)
 {
     const double *p = parameters[type];
     double length   = sqrt((double)sun.x * (double)sun.x + (double)sun.y * (double)sun.y +
                            (double)sun.z * (double)sun.z);
-    return (sky_twin){ p[0],
-                       p[1],
-                       1 - p[2] * exp(p[3] * pi / 2),
-                       p[2],
-                       p[3],
-                       p[4],
-                       { (double)sun.x / length, (double)sun.y / length, (double)sun.z / length } };
+    return (
+        angle_twin){ p[0],
+                     p[1],
+                     1 - p[2] * exp(p[3] * pi / 2),
+                     p[2],
+                     p[3],
+                     p[4],
+                     { (double)sun.x / length, (double)sun.y / length, (double)sun.z / length } };
 }
 
 static const sky *make(arena *a, int type, double elevation_deg)
 {
-    cie_desc d   = { type, sky_twin_sun(elevation_deg), 100, { 1, 1, 1 } };
+    cie_desc d   = { type, angle_twin_sun(elevation_deg), 100, { 1, 1, 1 } };
     const sky *s = sky_cie(a, &d, NULL);
     assert_non_null(s);
     return s;
@@ -87,9 +88,9 @@ TEST(the_integral_is_that_of_the_twin)
 {
     for (int type = 1; type < 16; type++)
         for (double h = 0; h <= 90; h += 45) {
-            sky_twin t  = twin_of(type, sky_twin_sun(h));
-            gradation g = { t.a, t.b, t.f0, t.c, t.d, t.e };
-            double want = sky_twin_level(&t, 200);
+            angle_twin t = twin_of(type, angle_twin_sun(h));
+            gradation g  = { t.a, t.b, t.f0, t.c, t.d, t.e };
+            double want  = angle_twin_level(&t, 200);
             assert_near(gradation_irradiance(&g, (90 - h) * pi / 180), want, h == 45 ? 6e-5 : 3e-4);
         }
 }
@@ -101,10 +102,10 @@ TEST(radiance_is_that_of_the_twin_in_all_directions)
     double worst  = 0;
     for (int type = 0; type < 16; type++)
         for (int h = 0; h <= 90; h += 10) {
-            vec3 sun     = sky_twin_sun(h);
+            vec3 sun     = angle_twin_sun(h);
             const sky *s = make(&a, type, h);
-            sky_twin t   = twin_of(type, sun);
-            double scale = 100 * sky_cie_zenith(type, h) / sky_twin_at(&t, (double[]){ 0, 0, 1 });
+            angle_twin t = twin_of(type, sun);
+            double scale = 100 * sky_cie_zenith(type, h) / angle_twin_at(&t, (double[]){ 0, 0, 1 });
             for (int i = 0; i < 400; i++) {
                 vec3 w = random_direction(&seed);
                 w.z    = fabsf(w.z);
@@ -122,7 +123,7 @@ TEST(radiance_is_that_of_the_twin_in_all_directions)
                     w = (vec3){ sun.x + w.x * 1e-3f, sun.y + w.y * 1e-3f, sun.z + w.z * 1e-3f };
                 w = v3_scale(w, 1 / v3_length(w));
                 double want =
-                    scale * sky_twin_at(&t, (double[]){ (double)w.x, (double)w.y, (double)w.z });
+                    scale * angle_twin_at(&t, (double[]){ (double)w.x, (double)w.y, (double)w.z });
                 worst = fmax(worst, fabs(sky_green(s, w) - want) / want);
                 assert_near(sky_green(s, w), want, 1e-5);
             }
@@ -154,7 +155,7 @@ TEST(walls_and_slopes_get_what_the_reference_says)
 TEST(colour_and_horizontal_are_what_was_asked)
 {
     arena a    = { 0 };
-    cie_desc d = { 12, sky_twin_sun(30), 50, { 0.7f, 1.0f, 1.8881f } };
+    cie_desc d = { 12, angle_twin_sun(30), 50, { 0.7f, 1.0f, 1.8881f } };
     d.color.z  = (1 - 0.2126f * 0.7f - 0.7152f) / 0.0722f;
     for (d.type = 0; d.type <= 16; d.type++) {
         const sky *s = sky_cie(&a, &d, NULL);

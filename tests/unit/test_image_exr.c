@@ -417,6 +417,64 @@ TEST(what_is_no_exr_is_refused)
     arena_clear(&a);
 }
 
+/* ---- several parts ---------------------------------------------------------------------- */
+
+enum { PARTS = 3 };
+
+/* Of different sizes, with more lines than a chunk has. */
+static void write_parts(arena *a, image parts[PARTS])
+{
+    static const char *const names[PARTS] = { "2026-06-21T10:00+03:00", "2026-06-21T11:00+03:00",
+                                              "a name that has more than 31 characters" };
+    lux_error err                         = { 0 };
+    for (int p = 0; p < PARTS; p++) {
+        parts[p]      = random_image(a, 5 + p, 40 - 19 * p, 2, 20);
+        parts[p].part = names[p];
+    }
+    if (!image_write_exr_parts(file_path(), parts, PARTS, &err))
+        fail_msg("%s", err.text);
+}
+
+TEST(parts_survive_each_by_its_name)
+{
+    arena a       = { 0 };
+    lux_error err = { 0 };
+    image parts[PARTS], got;
+    write_parts(&a, parts);
+    for (int p = 0; p < PARTS; p++) {
+        if (!image_read_exr_part(file_path(), p, &a, &got, &err))
+            fail_msg("%s", err.text);
+        assert_same(&got, &parts[p]);
+        const image_attribute *name = got.attributes;
+        while (strcmp(name->name, "name") != 0)
+            assert_true(++name < got.attributes + got.attribute_count);
+        assert_string_equal(name->text, parts[p].part);
+    }
+    assert_false(image_read_exr_part(file_path(), PARTS, &a, &got, &err));
+    assert_int_equal(err.code, ERR_ARGUMENT);
+    assert_false(image_read_exr_part(file_path(), -1, &a, &got, &err));
+    assert_false(image_read_exr(file_path(), &a, &got, &err));
+    assert_non_null(strstr(err.text, "EXR of 3 parts, one was expected"));
+    arena_clear(&a);
+}
+
+TEST(parts_without_names_of_their_own_are_refused)
+{
+    arena a       = { 0 };
+    lux_error err = { 0 };
+    image parts[PARTS];
+    write_parts(&a, parts);
+    remove(file_path());
+    parts[2].part = parts[0].part;
+    assert_false(image_write_exr_parts(file_path(), parts, PARTS, &err));
+    assert_non_null(strstr(err.text, "two parts 2026-06-21T10:00+03:00"));
+    parts[2].part = "";
+    assert_false(image_write_exr_parts(file_path(), parts, PARTS, &err));
+    assert_non_null(strstr(err.text, "name of 0 bytes"));
+    assert_int_not_equal(access(file_path(), F_OK), 0);
+    arena_clear(&a);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -435,6 +493,8 @@ int main(void)
         cmocka_unit_test(a_file_with_a_wrong_byte_is_read_or_refused),
         cmocka_unit_test(files_of_others_are_read_or_refused),
         cmocka_unit_test(what_is_no_exr_is_refused),
+        cmocka_unit_test(parts_survive_each_by_its_name),
+        cmocka_unit_test(parts_without_names_of_their_own_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -200,6 +200,25 @@ TEST(windows_count_from_the_left_end_seen_from_inside)
     assert_opening("floor", (dvec3){ 0.5, 1, 0 }, (dvec3){ 2.5, 2.25, 0 }, (dvec3){ 0, 0, -1 });
 }
 
+/* A lamp that hangs before a large open window sends a third of its light out: as it should. */
+TEST(light_that_leaves_by_a_window_is_no_loss)
+{
+    notices told   = { .a = &memory };
+    lux_error err  = { 0 };
+    const study *s = study_with("[{wall: south, at: [0.01, 0.01], size: [3.98, 2.98]}]}\n"
+                                "lights: [{type: point, at: [2, 1, 1.5], lumens: 900}]");
+    assert_non_null(scene_new(&memory, s, &(scene_options){ .threads = 1 }, &told, &err));
+    for (const notice *n = told.first; n; n = n->next)
+        assert_null(strstr(n->text, "leaves the room"));
+    s = study_with("[{wall: south, at: [0.01, 0.01], size: [3.98, 2]}]}\n"
+                   "lights: [{type: point, at: [2, 1, 3], lumens: 900}]"); /* in the ceiling */
+    assert_non_null(scene_new(&memory, s, &(scene_options){ .threads = 1 }, &told, &err));
+    bool lost = false;
+    for (const notice *n = told.first; n; n = n->next)
+        lost |= strstr(n->text, "leaves the room") != NULL;
+    assert_true(lost);
+}
+
 TEST(panes_of_one_transmittance_are_of_one_material)
 {
     const scene *s = scene_with(MANY);
@@ -290,6 +309,7 @@ int main(void)
         cmocka_unit_test_teardown(rays_leave_by_openings_alone, forget),
         cmocka_unit_test_teardown(nothing_leaks_where_triangles_meet, forget),
         cmocka_unit_test_teardown(windows_count_from_the_left_end_seen_from_inside, forget),
+        cmocka_unit_test_teardown(light_that_leaves_by_a_window_is_no_loss, forget),
         cmocka_unit_test_teardown(panes_of_one_transmittance_are_of_one_material, forget),
         cmocka_unit_test_teardown(a_room_without_windows_is_the_box_it_was, forget),
         cmocka_unit_test_teardown(as_many_windows_as_are_allowed_are_cut, forget),

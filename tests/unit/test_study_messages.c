@@ -4,11 +4,8 @@
 
 #include <stdio.h>
 
-TEST(every_key_of_the_contract_that_is_not_built_is_refused_by_name)
+TEST(other_versions_are_refused_before_their_keys)
 {
-    static const broken_study table[] = {
-    };
-    ALL_REFUSED(table, ERR_UNSUPPORTED);
     assert_study_refused(NULL, "lux4: 2\nnew: 3", ERR_UNSUPPORTED,
                          "1:7: version 2 of study files, this program knows 1");
     assert_study_refused(NULL, "new: 3\nlux4: 1.5", ERR_UNSUPPORTED,
@@ -256,7 +253,7 @@ TEST(names_can_be_names_of_files_and_differ)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_key_of_the_contract_that_is_not_built_is_refused_by_name),
+        cmocka_unit_test(other_versions_are_refused_before_their_keys),
         cmocka_unit_test(unknown_keys_are_named_with_the_nearest_known_one),
         cmocka_unit_test(keys_stand_once_and_are_not_forgotten),
         cmocka_unit_test(values_of_the_wrong_type_are_shown),

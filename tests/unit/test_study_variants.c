@@ -136,9 +136,12 @@ TEST(every_variant_is_checked_whether_it_is_chosen_or_not)
           "3:9: with the variant `low`: `height: 2` is not below the ceiling at 2 m" },
     };
     ALL_REFUSED(table, ERR_FORMAT);
-    assert_study_refused(NULL, "lux4: 1\nvariants: {a: {views: [{projection: fisheye}]}}",
-                         ERR_UNSUPPORTED,
-                         "2:38: with the variant `a`: `fisheye` is not supported yet");
+    assert_study_refused(NULL,
+                         "lux4: 1\nvariants: {a: {when: 2026-06-21T10:00, sky: {model: clear, "
+                         "sun: dim}}}",
+                         ERR_FORMAT,
+                         "2:65: with the variant `a`: expected off or on or disk or point, found "
+                         "`dim`");
 }
 
 TEST(a_study_must_be_good_without_its_variants)

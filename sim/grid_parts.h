@@ -47,9 +47,9 @@ typedef struct grid_run_state {
     int layers;            /* groups, if the scene is layered; else 0 */
     int moments;           /* of a series; else 0 */
     double *known, *bound; /* lx: of each layer, or of all; [layer * sensors + sensor] */
-    double *sun_known;     /* lx: of each sun, [sun * sensors + sensor]; and what of it is seen */
-    double *sun_share;
-    bool disks; /* some sun is more than a point */
+    double *sun_known;     /* lx: of each sun, [sun * sensors + sensor]; NAN: samples add nothing */
+    double *sun_share;     /* what of it is seen */
+    bool disks;            /* some sun is more than a point */
     grid_channels channels;
     path_options paths;
     atomic_bool lamps_left; /* some lamps take samples */

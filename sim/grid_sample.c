@@ -80,16 +80,18 @@ static void look_at_suns(grid_run_state *g, thread_scratch *w, const vsurface *a
     vuint sensor = vunsigned(vlane_index() + first);
     for (int sun = 0; sun < g->s->sun_count; sun++) {
         const scene_light *info = &g->s->light_info[scene_lamp_count(g->s) + sun];
-        vfloat e, open;
-        sun_look(w->suns, at, sun, g->seed, sensor, active, &e, &open);
+        sun_look of = sun_look_at(w->suns, at, sun, g->seed, sensor, g->r->asked, active);
         for (int bits = vbits(active); bits; bits &= bits - 1) {
             int i    = __builtin_ctz((unsigned)bits);
             size_t k = (size_t)(first + i);
             size_t j = (size_t)sun * (size_t)g->r->sensor_count + k;
 
-            g->sun_known[j] = LUMENS_PER_WATT * (double)lane(e, i);
-            g->sun_share[j] = (double)lane(open, i);
-            add_known(g, k, info->group, (double)info->dimming, g->sun_known[j], 0.0);
+            double lux      = LUMENS_PER_WATT * (double)lane(of.e, i);
+            double bound    = LUMENS_PER_WATT * (double)lane(of.bound, i);
+            bool mixed      = vbits(of.mixed) >> i & 1;
+            g->sun_known[j] = mixed ? (double)NAN : lux;
+            g->sun_share[j] = (double)lane(of.open, i);
+            add_known(g, k, info->group, (double)info->dimming, lux, bound);
         }
     }
 }
@@ -182,11 +184,11 @@ static void sample_suns(grid_run_state *g, thread_scratch *w, const sample_id *i
         sun_ask(w->suns, at, which, u, active, packets, e);
         for (int i = from; i < from + left; i++) {
             int k = (i - from) / LANES, sun = lane(which[k], (i - from) % LANES);
-            size_t j    = (size_t)sun * (size_t)g->r->sensor_count + ids[i].item;
-            float lux   = (float)LUMENS_PER_WATT * lane(e[k], (i - from) % LANES);
-            bool disk   = light_has_extent(s->lights[scene_lamp_count(s) + sun]);
-            w->sun[i]   = sun;
-            w->sun_e[i] = disk ? (float)s->sun_count * (lux - (float)g->sun_known[j]) : 0.0f;
+            size_t j     = (size_t)sun * (size_t)g->r->sensor_count + ids[i].item;
+            float lux    = (float)LUMENS_PER_WATT * lane(e[k], (i - from) % LANES);
+            double known = g->sun_known[j];
+            w->sun[i]    = sun;
+            w->sun_e[i]  = isnan(known) ? 0.0f : (float)s->sun_count * (lux - (float)known);
         }
     }
 }

@@ -2,6 +2,7 @@
 #include "sim/sun_seen.h"
 
 #include "core/color.h"
+#include "sim/accuracy.h"
 #include "sim/direct.h"
 #include "sim/shadow.h"
 
@@ -62,25 +63,66 @@ static void trace(sun_seen *w, int packets)
     }
 }
 
-void sun_look(sun_seen *w, const vsurface *at, int sun, uint32_t seed, vuint sensor, vmask active,
-              vfloat *e, vfloat *open)
+/* Adds `count` rays of a scramble of each lane, from number `from` on, to what they find and to how
+ * many nothing opaque stops. */
+static void look(sun_seen *w, const vsurface *at, int sun, vuint set, uint32_t from, int count,
+                 vmask active, vfloat *e, vfloat *open)
 {
-    bool disk  = light_has_extent(w->s->lights[scene_lamp_count(w->s) + sun]);
-    int rays   = disk ? SUN_RAYS : 1;
-    vuint set  = vhash_combine(vsplat_uint(hash_combine_u32(seed, (uint32_t)sun)), sensor);
-    vfloat all = { 0 }, unhidden = { 0 };
-    for (int j = 0; j < rays; j++) {
-        vsample4 u = vsobol4(vsplat_uint((uint32_t)j), set);
+    for (int j = 0; j < count; j++) {
+        vsample4 u = vsobol4(vsplat_uint(from + (uint32_t)j), set);
         begin(w, j);
         aim(w, j, at, sun, u.x, u.y, active);
     }
-    trace(w, rays);
-    for (int j = 0; j < rays; j++) {
-        all      = all + vkeep(w->asked[j], vrgb_luminance(w->e[j]));
-        unhidden = unhidden + vkeep(w->asked[j], vsplat(1.0f));
+    trace(w, count);
+    for (int j = 0; j < count; j++) {
+        *e    = *e + vkeep(w->asked[j], vrgb_luminance(w->e[j]));
+        *open = *open + vkeep(w->asked[j], vsplat(1.0f));
     }
-    *e    = all * (1.0f / (float)rays);
-    *open = unhidden * (1.0f / (float)rays);
+}
+
+/* From the half shadow: rays double until half of the interval of e, with Student's t of 15 degrees
+ * of freedom (accuracy.h), is small against what the sun would give. */
+static void look_closely(sun_seen *w, const vsurface *at, int sun, vuint sensor, double accuracy,
+                         vmask mixed, sun_look *out)
+{
+    const float student = 2.1314f, share = 0.1f * (float)accuracy;
+    vfloat e[SCRAMBLES] = { 0 }, open[SCRAMBLES] = { 0 };
+    vmask left = mixed;
+    int before = 0, now = SUN_RAYS;
+    for (; vany(left) && now * SCRAMBLES <= MOST_SUN_RAYS; before = now, now *= 2) {
+        vfloat mean = { 0 }, squares = { 0 }, unhidden = { 0 };
+        for (int r = 0; r < SCRAMBLES; r++) {
+            vuint set = vhash_combine(sensor, vsplat_uint((uint32_t)r));
+            look(w, at, sun, set, (uint32_t)before, now - before, left, &e[r], &open[r]);
+            mean     = mean + e[r] * (1.0f / (float)(now * SCRAMBLES));
+            unhidden = unhidden + open[r] * (1.0f / (float)(now * SCRAMBLES));
+        }
+        for (int r = 0; r < SCRAMBLES; r++) {
+            vfloat off = e[r] * (1.0f / (float)now) - mean;
+            squares    = squares + off * off;
+        }
+        vfloat half = student * vsqrt(squares * (1.0f / (SCRAMBLES * (SCRAMBLES - 1))));
+        out->e      = vselect(left, mean, out->e);
+        out->bound  = vselect(left, half, out->bound);
+        out->open   = vselect(left, unhidden, out->open);
+        left        = left & (half > share * mean);
+    }
+}
+
+sun_look sun_look_at(sun_seen *w, const vsurface *at, int sun, uint32_t seed, vuint sensor,
+                     double accuracy, vmask active)
+{
+    bool disk    = light_has_extent(w->s->lights[scene_lamp_count(w->s) + sun]);
+    int rays     = disk ? SUN_RAYS : 1;
+    vuint set    = vhash_combine(vsplat_uint(hash_combine_u32(seed, (uint32_t)sun)), sensor);
+    sun_look all = { 0 };
+    look(w, at, sun, set, 0, rays, active, &all.e, &all.open);
+    all.mixed = active & (all.open > 0.0f) & (all.open < (float)rays);
+    all.e     = all.e * (1.0f / (float)rays);
+    all.open  = all.open * (1.0f / (float)rays);
+    if (vany(all.mixed))
+        look_closely(w, at, sun, set, accuracy, all.mixed, &all);
+    return all;
 }
 
 void sun_ask(sun_seen *w, const vsurface *at, const vint *sun, const vsample4 *u,

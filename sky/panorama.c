@@ -139,7 +139,7 @@ static void tell(const panorama_desc *d, const panorama_map *m, const panorama_s
     double azimuth   = atan2((double)sun->to_sun.x, (double)sun->to_sun.y) * (180.0 / M_PI);
     double elevation = asin(fmin(fmax((double)sun->to_sun.z, -1.0), 1.0)) * (180.0 / M_PI);
     notice_add(n,
-               "%s: a sun at elevation %.1f, %.1f degrees clockwise from +y, gives %.4g lx square "
+               "%s: a sun at elevation %.1f, %.1f degrees clockwise from +y, gives %.6g lx square "
                "to it: now a lamp of %.2f degrees%s",
                d->path, elevation, azimuth < 0.0 ? azimuth + 360.0 : azimuth,
                LUMENS_PER_WATT * (double)rgb_luminance(sun->irradiance), sun->diameter_deg,

@@ -3,7 +3,8 @@
  * Filters that make pictures smaller (Lanczos) and lossy compression swing about bright edges: they
  * leave negative pixels beside the sun and lamps, of down to a sixth of these, and as much too much
  * light in others. The sum is right. So what is missing in a negative pixel is taken from those
- * around it, in proportion to their light, and no light is lost or gained.
+ * around it, in proportion to their light, to make it as bright as the darkest of them: no light is
+ * lost or gained.
  */
 #include "sky/panorama_parts.h"
 
@@ -37,17 +38,20 @@ static int reach_across(const window *w)
     return most < REACH ? most : REACH;
 }
 
-/* The light of the positive pixels, in one channel, W/m^2, and the greatest of them. */
-static double light_of(const window *w, int c, float *most)
+/* The light of the positive pixels, in one channel, W/m^2, and the least and the greatest of them.
+ */
+static double light_of(const window *w, int c, float *least, float *most)
 {
     double light = 0.0;
     *most        = 0.0f;
+    *least       = INFINITY;
     for (int down = -REACH; down <= REACH; down++) {
         double angle = has_row(w, down) ? panorama_row_of(w->m, w->row + down).solid_angle : 0.0;
         for (int right = -reach_across(w); angle > 0.0 && right <= reach_across(w); right++) {
             float v = window_pixel(w, right, down)[c];
             light += v > 0.0f ? angle * (double)v : 0.0;
-            *most = v > *most ? v : *most;
+            *most  = v > *most ? v : *most;
+            *least = v > 0.0f && v < *least ? v : *least;
         }
     }
     return light;
@@ -69,14 +73,15 @@ static bool clean_pixel(const window *w, lux_error *err)
     for (int c = 0; c < 3; c++) {
         if (!(pixel[c] < 0.0f))
             continue;
-        float most;
-        double light = light_of(w, c, &most), missing = -(double)pixel[c] * angle;
+        float least, most;
+        double light   = light_of(w, c, &least, &most);
+        double missing = (double)(least - pixel[c]) * angle;
         if (!(-pixel[c] <= most_swing * most) || !(missing < light))
             return failed(err, ERR_FORMAT,
                           "%s: the pixel in column %d of row %d is negative: %g %g %g", w->m->path,
                           w->column, w->row, (double)pixel[0], (double)pixel[1], (double)pixel[2]);
         dim(w, c, 1.0 - missing / light);
-        pixel[c] = 0.0f;
+        pixel[c] = least;
     }
     return true;
 }

@@ -35,7 +35,7 @@ static inline float *panorama_pixel(const panorama_map *m, int column, int row)
     return m->rgb0 + 4 * ((size_t)row * (size_t)m->width + (size_t)column);
 }
 
-/* Makes negative numbers 0 where they can be explained; else false, with *err. */
+/* Makes negative numbers positive where they can be explained; else false, with *err. */
 bool panorama_clean(const panorama_map *m, lux_error *err);
 
 /* Finds the sun, if there is one, takes it out of the map and puts its surroundings in its place;

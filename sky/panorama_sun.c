@@ -20,6 +20,8 @@
 
 #include "core/color.h"
 
+#include <stdlib.h>
+
 static const double near_deg = 5.0, around_deg = 15.0;
 static const double least_contrast = 100.0;
 static const double least_alone    = 0.9;

@@ -129,7 +129,8 @@ TEST(read_back_as_a_panorama_it_gives_the_same_light)
     assert_near(json_number_at(b.out, "sky_horizontal_lx"), 15000.0, 1e-4);
     assert_true(fabs(json_number_at(b.out, "sun_azimuth_deg") - azimuth) < 0.02);
     assert_true(fabs(json_number_at(b.out, "sun_elevation_deg") - high) < 0.02);
-    assert_near(json_number_at(b.out, "zenith_cd_m2"), json_number_at(r.out, "zenith_cd_m2"), 1e-3);
+    /* Of a pixel whose middle is 0.09 degrees off, where this sky grows by 1.5 a radian */
+    assert_near(json_number_at(b.out, "zenith_cd_m2"), json_number_at(r.out, "zenith_cd_m2"), 3e-3);
 
     /* And the picture itself: sky and sun together */
     read_sky(&a, folder, &im);

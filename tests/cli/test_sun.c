@@ -36,7 +36,7 @@ static void assert_number(const program_result *r, const char *path, double want
 /* "2015-01-02T07:21:55-07:00": the seconds since midnight; and the date is this one. */
 static double seconds_at(const char *out, const char *path, const char *date)
 {
-    int hour, minute, second = 0;
+    int hour = 0, minute = 0, second = 0;
     const char *at = json_at(out, path);
     if (!at || strncmp(at + 1, date, 10) != 0 ||
         sscanf(at + 12, "%d:%d:%d", &hour, &minute, &second) < 2)

@@ -66,8 +66,8 @@ TEST(a_diagram_has_its_labels)
         ">21</tspan>",
         "Europe/Moscow",
         "hours: civil time at UTC+03:00<",
-        "orange: path of 2026-06-21; sun at "
-        "2026-06-21T10:00+03:00: azimuth 123.7°, elevation 47.5°<",
+        "orange: path of 2026-06-21; sun at 2026-06-21T10:00+03:00: azimuth 123.7°",
+        ", elevation 47.5°<",
     };
     char *folder     = folder_new();
     program_result r = { 0 };

@@ -87,8 +87,8 @@ TEST(what_is_no_command_is_refused)
 
 TEST(commands_that_are_promised_are_refused_by_name)
 {
-    static const char *const commands[] = { "daylight", "sky", "plan", "cost", "tone", "diff" };
-    for (int i = 0; i < 6; i++)
+    static const char *const commands[] = { "plan", "cost", "tone", "diff" };
+    for (size_t i = 0; i < sizeof commands / sizeof *commands; i++)
         LUX4_FAILS(NULL, 2, "is not supported yet", commands[i], "study.yaml");
 }
 

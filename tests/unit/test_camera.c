@@ -152,9 +152,9 @@ TEST(round_views_have_no_opening_and_no_width)
 {
     static const broken_study table[] = {
         { "views: [{name: a, eye: [0,0,0], target: [1,0,0], projection: fisheye, fov: 90}]",
-          "2:79: `fov` does not go with fisheye, which shows 180 degrees" },
+          "2:76: `fov` does not go with fisheye, which shows 180 degrees" },
         { "views: [{name: a, eye: [0,0,0], target: [1,0,0], projection: panorama, width: 3}]",
-          "2:82: `width` does not go with panorama, which shows all around" },
+          "2:79: `width` does not go with panorama, which shows all around" },
     };
     ALL_REFUSED(table, ERR_FORMAT);
 }

@@ -114,6 +114,11 @@ TEST(hours_count_by_the_clock_of_the_date)
     find(&d, &q);
     assert_int_equal(d.offset, 7200);
     assert_true(d.clocks_change);
+    sun_diagram utc; /* where it is 12:00 when it is 14:00 in Berlin */
+    sun_question same = question(&a, 52.5, 6, 21);
+    find(&utc, &same);
+    assert_near(d.hours[14][SUN_JUNE_21].x, utc.hours[12][SUN_JUNE_21].x, 1e-12);
+    assert_near(d.hours[14][SUN_JUNE_21].y, utc.hours[12][SUN_JUNE_21].y, 1e-12);
     q.date.month = 1;
     find(&d, &q);
     assert_int_equal(d.offset, 3600);

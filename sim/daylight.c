@@ -1,6 +1,8 @@
 /* sim/daylight.c -- see daylight.h. */
 #include "sim/daylight.h"
 
+#include "sim/moment_sky.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -82,6 +84,19 @@ static bool make_series(daylight *d, int i, double step_h, lux_error *err)
     return s->of != NULL;
 }
 
+static void tell_nights(const daylight *d)
+{
+    const study *s = d->study;
+    int nights     = 0;
+    for (int h = 0; h < d->moment_count; h++)
+        nights += d->moments[h].sun_known && !(d->moments[h].to_sun.z > 0.0f);
+    if (nights > 0 && study_needs_sun(s))
+        notice_add(d->notices,
+                   "%s:%d:%d: the sun is below the horizon at %d of %d moments: the sky is dark "
+                   "then",
+                   s->path, s->sky.where.line, s->sky.where.column, nights, d->moment_count);
+}
+
 bool daylight_begin(daylight *d, double step_h, lux_error *err)
 {
     const study *s = d->study;
@@ -95,6 +110,7 @@ bool daylight_begin(daylight *d, double step_h, lux_error *err)
     for (int i = 0; i < s->grid_count; i++)
         if (!make_series(d, i, step_h, err))
             return false;
+    tell_nights(d);
     return true;
 }
 

@@ -51,8 +51,9 @@ static void print_moment(const daylight_series *s, int h)
 
 void daylight_print(const daylight_series *s)
 {
-    printf("%s: %d sensors, %d of %d moments", s->plan.grid->name, s->plan.sensor_count, s->count,
-           s->wanted);
+    int sensors = s->plan.sensor_count;
+    printf("%s: %d sensor%s, %d of %d moments", s->plan.grid->name, sensors, sensors > 1 ? "s" : "",
+           s->count, s->wanted);
     if (s->plan.grid->quantity != QUANTITY_PLANAR)
         printf(", %s", grid_quantity_name(s->plan.grid->quantity));
     printf("\n  %-25s %7s %9s %11s %11s %11s %8s %7s %12s\n", "time", "azimuth", "elevation",

@@ -182,7 +182,8 @@ static void draw_moment(const sheet *d, int h, int row, int column)
     if (down && f->maximum == 0.0)
         snprintf(below, sizeof below, "sun down");
     else
-        snprintf(below, sizeof below, "avg %.*f lx", f->average < 9.95 ? 1 : 0, f->average);
+        snprintf(below, sizeof below, "%s%.*f lx", b.width < 72.0 ? "" : "avg ",
+                 f->average < 9.95 ? 1 : 0, f->average);
     sheet_plan(d->out, &b, &s->plan, s->light[h].illuminance, &d->light);
     draw_label(d, &b, above, below);
 }
@@ -246,8 +247,8 @@ static void draw_header(const sheet *d)
     if (d->at.every > 1)
         snprintf(left_out, sizeof left_out, "; one %s of %d is drawn",
                  d->at.by_date || s->dates > 1 ? "date" : "time", d->at.every);
-    sheet_write(d->out, &line, "%s, %d sensors%s%s", grid_quantity_name(s->plan.grid->quantity),
-                s->plan.sensor_count, left_out,
+    sheet_write(d->out, &line, "%s, %d sensor%s%s%s", grid_quantity_name(s->plan.grid->quantity),
+                s->plan.sensor_count, s->plan.sensor_count > 1 ? "s" : "", left_out,
                 s->end == RUN_INTERRUPTED ? "; partial: interrupted" : "");
     double room = PAGE_WIDTH - 2.0 * MARGIN;
     sheet_legend(d->out, MARGIN + 8.0, 80.0, 0.5 * room, &d->light, "lx");

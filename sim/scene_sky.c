@@ -146,15 +146,9 @@ static bool add_moments(scene_build *b)
                      : !add_moment(b, m, in, &nights))
             return false;
     }
-    if (nights == 1 && b->moment_count == 1)
+    if (nights > 0 && !b->options->moments) /* of a series, its command tells of all batches */
         notice_add(b->notices, "%s:%d:%d: the sun is below the horizon: the sky is dark",
                    b->study->path, b->study->sky.where.line, b->study->sky.where.column);
-    else if (nights > 0)
-        notice_add(b->notices,
-                   "%s:%d:%d: the sun is below the horizon at %d of %d moments: the sky is dark "
-                   "then",
-                   b->study->path, b->study->sky.where.line, b->study->sky.where.column, nights,
-                   b->moment_count);
     return true;
 }
 

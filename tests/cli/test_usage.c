@@ -67,7 +67,7 @@ TEST(each_command_has_its_help)
     assert_tells(&page, "luminaires");
     program_free(&page);
     LUX4_FAILS(NULL, 2, "unknown command `gird`", "help", "gird");
-    LUX4_FAILS(NULL, 2, "`sky` is not supported yet", "help", "sky");
+    LUX4_FAILS(NULL, 2, "`plan` is not supported yet", "help", "plan");
 }
 
 TEST(the_version_is_told)

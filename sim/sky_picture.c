@@ -73,14 +73,14 @@ static void fill_row(const scene *s, const camera *c, bool suns, int y, float *c
         vfloat right = vto_float(column) + 0.5f, down = vsplat((float)y + 0.5f);
         vmask active = (column < c->width) & camera_sees(c, right, down);
         vray ray     = camera_ray(c, right, down);
-        vrgb light   = sky_at(s, &ray.direction, active);
+        vrgb seen    = sky_at(s, &ray.direction, active);
         if (suns)
-            light = vadd(light, suns_at(s, &ray.direction, active));
+            seen = vadd(seen, suns_at(s, &ray.direction, active));
         for (int i = 0; i < LANES && x + i < c->width; i++) {
             size_t to  = (size_t)y * (size_t)c->width + (size_t)(x + i);
-            rgb[0][to] = lane(light.x, i);
-            rgb[1][to] = lane(light.y, i);
-            rgb[2][to] = lane(light.z, i);
+            rgb[0][to] = lane(seen.x, i);
+            rgb[1][to] = lane(seen.y, i);
+            rgb[2][to] = lane(seen.z, i);
         }
     }
 }

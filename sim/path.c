@@ -28,7 +28,7 @@ path_tracer *path_tracer_new(arena *a, const scene *s, lux_error *err)
     if (!t)
         return NULL;
     t->s      = s;
-    t->fields = s->textured ? FIELDS : finds_light(s) ? WIDTH : PLAIN_FIELDS;
+    t->fields = s->textured ? FIELDS : finds_light(s) ? FARTHER : PLAIN_FIELDS;
     t->direct = direct_scratch_new(a, err);
     t->shown  = lamps_that_show(a, s, err);
     if (!t->direct || !t->shown.lamps)
@@ -63,6 +63,16 @@ vsample4 path_numbers(const path_tracer *t, int k, uint32_t purpose)
     vuint index = vunsigned(vgather_int((const int32_t *)t->b->index, id));
     vuint seed  = vunsigned(vgather_int((const int32_t *)t->b->seed, id));
     return vsobol4(index, vhash_combine(seed, vsplat_uint(purpose ^ t->depth)));
+}
+
+vmask path_in_turn(const path_tracer *t, int k, int which, uint32_t turns)
+{
+    enum { ALIKE = 3 }; /* bits of their number */
+    vint id     = vload_int(t->id + k * LANES);
+    vuint index = vunsigned(vgather_int((const int32_t *)t->b->index, id));
+    vuint seed  = vunsigned(vgather_int((const int32_t *)t->b->seed, id));
+    vuint turn  = vhash_combine(seed, vsplat_uint(t->depth)) + (index >> ALIKE);
+    return ((turn + (uint32_t)which) & (turns - 1)) == 0;
 }
 
 /* Of a place. Lights have numbers of their own only where they need them. */
@@ -100,6 +110,8 @@ static void draw_first_directions(path_tracer *t)
             store3(t, LEFT, k, t->at[k].position);
             store3(t, SIDE, k, t->at[k].normal);
         }
+        if (t->patches)
+            store(t, ONTO, k, vsplat(0.0f));
         store3(t, PLACE, k, vray_start(&t->at[k], &wi));
         store3(t, WAY, k, wi);
     }
@@ -118,6 +130,10 @@ static void leave(path_tracer *t, int k, const vscatter *next)
         vselect(single, vselect(next->bent & (pdf < INFINITY), already, sole), next->pdf);
     vfloat of_lamp = vselect(single, vselect(next->bent & (lamp < INFINITY), already, sole),
                              vselect(narrow, next->pdf, already));
+    if (t->patches) {
+        store(t, ONTO, k, vselect(left, path_onto(t, k, left), load(t, ONTO, k)));
+        store3(t, FARTHER, k, vselect3(left, load3(t, LEFT, k), load3(t, FARTHER, k)));
+    }
     store(t, PDF, k, vselect(left, of_pdf, pdf));
     store(t, LAMP_PDF, k, vselect(left, of_lamp, lamp));
     store3(t, LEFT, k, vselect3(left, t->at[k].position, load3(t, LEFT, k)));

@@ -21,11 +21,14 @@ enum {
     PLAIN_FIELDS = WORTH + 3,    /* the next where rays find light: */
     LEFT         = PLAIN_FIELDS, /* m: where the path was last, straight passages apart */
     SIDE         = LEFT + 3,     /* the normal there */
-    PDF = SIDE + 3, /* 1/sr, with which it left in its direction: what it then finds that glows
-                       has been asked for too. INFINITY: it has not; ALREADY: by that alone */
-    LAMP_PDF,       /* the same, of lamps */
-    WIDTH,          /* m, of the beam; the next where there are textures */
-    SPREAD,         /* rad, of the beam */
+    PDF = SIDE + 3,     /* 1/sr, with which it left in its direction: what it then finds that glows
+                           has been asked for too. INFINITY: it has not; ALREADY: by that alone */
+    LAMP_PDF,           /* the same, of lamps */
+    FARTHER,            /* m: where it was before that; the next two where suns light patches */
+    ONTO = FARTHER + 3, /* 1/m^2: with which it came from there to where it was last; 0: it came
+                           along a single direction, or began there */
+    WIDTH,              /* m, of the beam; the next where there are textures */
+    SPREAD,             /* rad, of the beam */
     FIELDS
 };
 #define ALREADY (-1.0f)
@@ -136,6 +139,11 @@ static inline vfloat first_of(const path_tracer *t, int k)
 vsample4 path_numbers(const path_tracer *t, int k, uint32_t purpose);
 enum { OF_LIGHT = ~0x0, OF_SKY = 0x5c1e, OF_PATCH = 0x9a7c, OF_SUN = 0x50af };
 
+/* The lanes of packet k in which it is the turn of number `which`: of any TURNS (a power of two)
+ * that follow each other one has it, and each as often. Samples that follow each other mostly
+ * agree. */
+vmask path_in_turn(const path_tracer *t, int k, int which, uint32_t turns);
+
 /* What asking for light that comes along wi is worth where packet k stands: by channel, response or
  * f cos, times what the path is worth. In *pdf the density with which the path's own ray would take
  * that direction, 1/sr. */
@@ -164,9 +172,13 @@ void path_ask_suns(path_tracer *t, bool beginning);
 /* Light that comes by way of sunlit patches, which paths find for themselves, too. */
 void path_ask_patches(path_tracer *t, bool beginning);
 
-/* The density, 1/sr, with which path_ask_patches() draws the way from where packet k was last to
- * where it stands, for the sun of that number; wi: toward the sun. */
-vfloat path_patch_pdf(const path_tracer *t, int k, int sun, const vvec3 *wi, vmask active);
+/* How much the light of the sun of that number counts where packet k stands, if it has come by way
+ * of what path_ask_patches() may have asked; wi: toward the sun. */
+vfloat path_patch_share(const path_tracer *t, int k, int sun, const vvec3 *wi, vmask active);
+
+/* The density, 1/m^2, with which the paths' own rays have come to where packet k stands; 0 where
+ * nothing else could have. */
+vfloat path_onto(const path_tracer *t, int k, vmask active);
 
 /* The sky, where the rays met nothing. */
 void path_add_sky(path_tracer *t);

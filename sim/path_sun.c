@@ -8,10 +8,10 @@
 #include "sim/path_parts.h"
 #include "sim/sensor.h"
 
-static const float seldom = 0.25f;
+enum { SELDOM = 16 /* places, of which one asks */ };
 
 /* The lanes of packet k that ask sun l, and how much each then counts. */
-static vmask who_asks(const path_tracer *t, int k, int l, vfloat pick, vfloat *count)
+static vmask who_asks(const path_tracer *t, int k, int l, vfloat *count)
 {
     const scene *s = t->s;
     vsurface at    = t->at[k];
@@ -22,8 +22,8 @@ static vmask who_asks(const path_tracer *t, int k, int l, vfloat pick, vfloat *c
         return t->asks[k];
     light_sample(s->lights[l], &at.position, half, half, t->asks[k], &of);
     vmask in = portals_cross(s->portals, &at.position, &of.wi, t->asks[k]);
-    *count   = vselect(in, *count, vsplat(1.0f / seldom));
-    return t->asks[k] & (in | (pick < seldom));
+    *count   = vselect(in, *count, vsplat((float)SELDOM));
+    return t->asks[k] & (in | path_in_turn(t, k, l, SELDOM));
 }
 
 static void take(path_tracer *t, int k, int sun, bool beginning, vfloat count)
@@ -41,12 +41,8 @@ static void take(path_tracer *t, int k, int sun, bool beginning, vfloat count)
         vmask found = (t->does[k] & DOES_NARROW) != 0;
         count       = count * vselect(found, power_heuristic(l->pdf, pdf), vsplat(1.0f));
     }
-    if (t->patches && !beginning) {
-        vfloat before = load(t, PDF, k);
-        vmask both    = lit & (before > 0.0f) & (before < INFINITY);
-        vfloat other  = path_patch_pdf(t, k, sun, &l->wi, both);
-        count         = count * vselect(both, power_heuristic(before, other), vsplat(1.0f));
-    }
+    if (t->patches && !beginning)
+        count = count * path_patch_share(t, k, sun, &l->wi, lit);
     path_layer to = { info->group, info->dimming, true, false };
     path_add(t, k, lit, beginning ? ALL_LANES : (vmask){ 0 }, vmul(vscale(worth, count), l->e),
              &to);
@@ -60,12 +56,11 @@ void path_ask_suns(path_tracer *t, bool beginning)
     vfloat count[DIRECT_PACKETS];
     for (int first = 0; first < packets_of(t); first += DIRECT_PACKETS) {
         int n = packets_of(t) - first < DIRECT_PACKETS ? packets_of(t) - first : DIRECT_PACKETS;
+        for (int i = 0; i < n; i++)
+            u[i] = path_numbers(t, first + i, OF_SUN);
         for (int sun = 0; sun < s->sun_count; sun++) {
-            for (int i = 0; i < n; i++) {
-                int k       = first + i;
-                u[i]        = path_numbers(t, k, OF_SUN + ((uint32_t)sun << 16));
-                t->asked[k] = who_asks(t, k, lamps + sun, u[i].w, &count[i]);
-            }
+            for (int i = 0; i < n; i++)
+                t->asked[first + i] = who_asks(t, first + i, lamps + sun, &count[i]);
             direct_batch b = { .at         = t->at + first,
                                .active     = t->asked + first,
                                .u          = u,

@@ -1,4 +1,5 @@
-/* sim/sun_patch.h -- the patches that suns light through portals, as points that light a room.
+/* sim/sun_patch.h -- the patches that suns light through portals, as points that light a room; and
+ * what lies beside them, lit by them.
  *
  * Places o are spread evenly over each portal that a sun shines through, and the sunlight through
  * each is followed to the first surface y that lets no light straight through. Where the sun sees
@@ -34,20 +35,30 @@ bool sun_patches_new(arena *a, const scene *s, uint32_t seed, double accuracy, i
 int sun_patch_suns(const sun_patches *w);
 int sun_patch_sun(const sun_patches *w, int i);
 
-/* Points of a patch, one a lane. */
+/* Points of patches, y, one a lane; or points z that such a point lights, in a direction drawn from
+ * y as a matt surface sends light. */
+typedef enum patch_generation { PATCH_FIRST, PATCH_SECOND } patch_generation;
 typedef struct patch_point {
-    vsurface at;   /* y: its normal on the side that is lit */
-    vvec3 to_sun;  /* unit */
-    vrgb e;        /* W/m^2, square to w: what of the sunlight arrives there */
-    vrgb radiance; /* W/(sr m^2), on the lit side, where all surfaces of the scene are matt */
-    vhit hit;      /* of y, without its distance */
+    vsurface at;  /* y or z: its place, and its normal on the side that is lit */
+    vvec3 before; /* unit: toward the sun; from z toward y */
+    vrgb light;   /* where not all surfaces are matt: of y, W/m^2, square to w, what of the sunlight
+                     arrives; of z, pi f(y)   times that, f 1/sr */
+    vhit hit;     /* then, too; without its distance */
+    vrgb radiance; /* where all are matt, on the lit side: f(y) c(y, w) e; of z, f(z) pi f(y) e */
     vfloat area;   /* m^2, square to w: what the point stands for, by the chance of its draw */
+
+    /* Of z alone */
+    vvec3 patch;       /* m: y */
+    vvec3 to_sun;      /* unit: w */
+    vfloat patch_cos;  /* c(y, w) */
+    vfloat patch_thin; /* c(y, z) / |y - z|^2, 1/m^2 */
+    vfloat drawn;      /* the density of z as drawn from y, 1/m^2 */
 } patch_point;
 
-/* A point of the patches that sun number `sun` lights, by two numbers in [0, 1): one portal of all
- * in proportion to its sunlight, the less the farther it is from x. The lanes that have one. */
-vmask sun_patch_draw(const sun_patches *w, int sun, vint set, const vvec3 *x, vfloat u, vfloat v,
-                     vmask active, patch_point *out);
+/* A point of what sun number `sun` lights, by two numbers in [0, 1): one portal of all in
+ * proportion to its sunlight, the less the farther it is from x. The lanes that have one. */
+vmask sun_patch_draw(const sun_patches *w, patch_generation which, int sun, vint set,
+                     const vvec3 *x, vfloat u, vfloat v, vmask active, patch_point *out);
 
 /* The density, 1/m^2, on a plane square to wi, with which points at y are drawn for x; wi: from y
  * toward that sun. */

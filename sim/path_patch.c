@@ -86,7 +86,7 @@ static vrgb given_back(const path_tracer *t, patch_generation which, const patch
     vfloat cosine  = vdot(y->before, y->at.normal);
     if (!s->narrow && !s->textured && !s->smooth) {
         *pdf = cosine * (1.0f / WARP_PI);
-        return vkeep3(active & (vdot(*wi, y->at.normal) < 0.0f), y->radiance);
+        return vkeep3(active & (vdot(*wi, y->at.normal) < 0.0f), y->light);
     }
     vhit hit     = y->hit;
     hit.distance = distance;

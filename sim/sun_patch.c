@@ -11,10 +11,13 @@ static vfloat weight_of(const sun_patches *w, int sun, int j, const vvec3 *x)
     return w->lit[sun * w->portals + j] / (vdot(to, to) + w->area[j]);
 }
 
-static vvec3 load3(const patch_lots *l, int field, vint at)
+/* Three numbers of a row, and the fourth. */
+static vvec3 load_row(const patch_lots *l, vint point, int row, vfloat *more)
 {
-    return (vvec3){ vgather(l->field[field], at), vgather(l->field[field + 1], at),
-                    vgather(l->field[field + 2], at) };
+    vfloat of[4];
+    vgather4(l->rows, point * l->row_count + row, of);
+    *more = of[3];
+    return (vvec3){ of[0], of[1], of[2] };
 }
 
 /* Which portal, with what probability. */
@@ -51,24 +54,22 @@ vmask sun_patch_draw(const sun_patches *w, patch_generation which, int sun, vint
     vmask drawn       = active & (which_portal >= 0) & (kept > 0);
     vint at           = vkeep_int(drawn, lot * w->cast + vto_int(v * vto_float(kept)));
 
-    out->at     = (vsurface){ .position = load3(l, AT, at), .normal = load3(l, NORMAL, at) };
-    out->before = load3(l, BEFORE, at);
-    if (w->matt) {
-        out->radiance = load3(l, SHINES, at);
-    } else {
-        out->light = load3(l, LIGHT, at);
-        out->hit   = (vhit){ .instance = vgather_int(l->instance, at),
-                             .triangle = vgather_int(l->triangle, at),
-                             .u        = vgather(l->field[U], at),
-                             .v        = vgather(l->field[V], at) };
+    vfloat none;
+    out->at.position = load_row(l, at, PLACE_ROW, &out->drawn);
+    out->at.normal   = load_row(l, at, NORMAL_ROW, &out->patch_cos);
+    out->before      = load_row(l, at, BEFORE_ROW, &out->patch_thin);
+    out->light       = load_row(l, at, LIGHT_ROW, &none);
+    if (!w->matt) {
+        vfloat weight;
+        vvec3 hit = load_row(l, at, HIT_ROW, &weight);
+        out->hit  = (vhit){
+             .instance = vas_int(hit.x), .triangle = vas_int(hit.y), .u = hit.z, .v = weight
+        };
     }
     out->area = vgather(w->facing, pair) * vto_float(kept) * (1.0f / (float)w->cast) / chance;
     if (which == PATCH_SECOND) {
-        out->patch      = load3(l, PATCH, at);
-        out->to_sun     = load3(l, TO_SUN, at);
-        out->patch_cos  = vgather(l->field[AREA], at);
-        out->patch_thin = vgather(l->field[BACK], at);
-        out->drawn      = vgather(l->field[DRAWN], at);
+        out->patch  = load_row(l, at, PATCH_ROW, &none);
+        out->to_sun = load_row(l, at, SUN_ROW, &none);
     }
     return drawn;
 }

@@ -41,11 +41,11 @@ typedef enum patch_generation { PATCH_FIRST, PATCH_SECOND } patch_generation;
 typedef struct patch_point {
     vsurface at;  /* y or z: its place, and its normal on the side that is lit */
     vvec3 before; /* unit: toward the sun; from z toward y */
-    vrgb light;   /* where not all surfaces are matt: of y, W/m^2, square to w, what of the sunlight
-                     arrives; of z, pi f(y)   times that, f 1/sr */
-    vhit hit;     /* then, too; without its distance */
-    vrgb radiance; /* where all are matt, on the lit side: f(y) c(y, w) e; of z, f(z) pi f(y) e */
-    vfloat area;   /* m^2, square to w: what the point stands for, by the chance of its draw */
+    vrgb light;   /* where all surfaces are matt what it gives back on its lit side, W/(sr m^2):
+                     f(y) c(y, w) e, with e the sunlight that arrives square to w; of z, f(z) pi f(y)
+                     e. Else what arrives: e, W/m^2; of z, pi f(y) e */
+    vhit hit;     /* where not all are matt; without its distance */
+    vfloat area;  /* m^2, square to w: what the point stands for, by the chance of its draw */
 
     /* Of z alone */
     vvec3 patch;       /* m: y */

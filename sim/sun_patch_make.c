@@ -85,22 +85,21 @@ static void land(const sun_patches *w, batch *b, int k)
     b->active[k] = hollow;
 }
 
-static void store3(const patch_lots *l, int field, int64_t to, const vvec3 *v, int i)
+/* Lane i of three numbers, and one more, as a row of a point. */
+static void store_row(const patch_lots *l, int64_t point, int row, const vvec3 *v, vfloat more,
+                      int i)
 {
-    l->field[field][to]     = lane(v->x, i);
-    l->field[field + 1][to] = lane(v->y, i);
-    l->field[field + 2][to] = lane(v->z, i);
+    float *to = l->rows + 4 * (point * l->row_count + row);
+    to[0]     = lane(v->x, i);
+    to[1]     = lane(v->y, i);
+    to[2]     = lane(v->z, i);
+    to[3]     = lane(more, i);
 }
 
-/* What both generations keep of lane i. */
-static void store_point(const patch_lots *to, int64_t at, const vsurface *s, const vhit *hit, int i)
+static void store_hit(const patch_lots *l, int64_t point, const vhit *hit, int i)
 {
-    store3(to, AT, at, &s->position, i);
-    store3(to, NORMAL, at, &s->normal, i);
-    to->field[U][at] = lane(hit->u, i);
-    to->field[V][at] = lane(hit->v, i);
-    to->instance[at] = lane(hit->instance, i);
-    to->triangle[at] = lane(hit->triangle, i);
+    vvec3 row = { vas_float(hit->instance), vas_float(hit->triangle), hit->u };
+    store_row(l, point, HIT_ROW, &row, hit->v, i);
 }
 
 /* Keeps the points of packet k that the sun sees, and lets light go on from there, as a matt
@@ -121,6 +120,7 @@ static void keep_patch(lot *l, batch *b, int k, int index)
     vsample4 u    = vsobol4(vunsigned(vlane_index() + index), set_of(l, 1));
     vvec3 on      = vwarp_cosine_about(at->normal, u.x, u.y);
     vrgb radiance = { 0 };
+    vfloat none   = { 0 };
     if (w->matt) {
         vrgb f = materials_reflect(s->materials, at->material, &shading, &b->to_sun[k], lit, NULL);
         radiance = vmul(f, e);
@@ -128,10 +128,11 @@ static void keep_patch(lot *l, batch *b, int k, int index)
     for (int bits = vbits(lit); bits; bits &= bits - 1) {
         int i      = __builtin_ctz((unsigned)bits);
         int64_t to = l->first + l->kept++;
-        store_point(&w->first, to, at, &b->hit[k], i);
-        store3(&w->first, BEFORE, to, &b->to_sun[k], i);
-        store3(&w->first, LIGHT, to, &e, i);
-        store3(&w->first, SHINES, to, &radiance, i);
+        store_row(&w->first, to, PLACE_ROW, &at->position, none, i);
+        store_row(&w->first, to, NORMAL_ROW, &at->normal, none, i);
+        store_row(&w->first, to, BEFORE_ROW, &b->to_sun[k], none, i);
+        store_row(&w->first, to, LIGHT_ROW, w->matt ? &radiance : &e, none, i);
+        store_hit(&w->first, to, &b->hit[k], i);
     }
 
     /* What y sends on toward z: pi f(y) e */
@@ -173,15 +174,13 @@ static void keep_second(lot *l, const batch *b, int k)
     for (int bits = vbits(met); bits; bits &= bits - 1) {
         int i      = __builtin_ctz((unsigned)bits);
         int64_t to = l->first + l->kept_on++;
-        store_point(&w->second, to, &z, &b->hit[k], i);
-        store3(&w->second, BEFORE, to, &back, i);
-        store3(&w->second, LIGHT, to, &b->e[k], i);
-        store3(&w->second, SHINES, to, &radiance, i);
-        store3(&w->second, PATCH, to, &y->position, i);
-        store3(&w->second, TO_SUN, to, &b->to_sun[k], i);
-        w->second.field[AREA][to]  = lane(to_sun, i);
-        w->second.field[BACK][to]  = lane(thin, i);
-        w->second.field[DRAWN][to] = lane(drawn, i);
+        store_row(&w->second, to, PLACE_ROW, &z.position, drawn, i);
+        store_row(&w->second, to, NORMAL_ROW, &z.normal, to_sun, i);
+        store_row(&w->second, to, BEFORE_ROW, &back, thin, i);
+        store_row(&w->second, to, LIGHT_ROW, w->matt ? &radiance : &b->e[k], to_z, i);
+        store_row(&w->second, to, PATCH_ROW, &y->position, to_z, i);
+        store_row(&w->second, to, SUN_ROW, &b->to_sun[k], to_z, i);
+        store_hit(&w->second, to, &b->hit[k], i);
     }
 }
 
@@ -280,17 +279,14 @@ static int places_of(const sun_patches *w, int lit, double accuracy)
     return places;
 }
 
-static bool make_lots(arena *a, const sun_patches *w, int fields, patch_lots *l, lux_error *err)
+static bool make_lots(arena *a, const sun_patches *w, int rows, patch_lots *l, lux_error *err)
 {
-    size_t lots = (size_t)w->portals * (size_t)w->s->sun_count * SCRAMBLES;
-    size_t n    = lots * (size_t)w->cast;
-    l->kept     = arena_array(a, int32_t, lots, err);
-    l->instance = l->kept ? arena_array(a, int32_t, n, err) : NULL;
-    l->triangle = l->instance ? arena_array(a, int32_t, n, err) : NULL;
-    for (int f = 0; l->triangle && f < fields; f++)
-        if (!(l->field[f] = arena_array(a, float, n, err)))
-            return false;
-    return l->triangle != NULL;
+    size_t lots  = (size_t)w->portals * (size_t)w->s->sun_count * SCRAMBLES;
+    size_t n     = lots * (size_t)w->cast * (size_t)rows * 4;
+    l->row_count = rows;
+    l->kept      = arena_array(a, int32_t, lots, err);
+    l->rows      = l->kept ? arena_array(a, float, n, err) : NULL;
+    return l->rows != NULL;
 }
 
 /* What portals let in, and which suns anything comes of. */
@@ -332,8 +328,8 @@ bool sun_patches_new(arena *a, const scene *s, uint32_t seed, double accuracy, i
     w->cast       = places_of(w, most, accuracy);
     arena scratch = { 0 };
     making m      = { .w = w, .batches = arena_array(&scratch, batch, (size_t)threads, err) };
-    bool good     = m.batches && make_lots(a, w, FIRST_FIELDS, &w->first, err) &&
-                make_lots(a, w, FIELDS, &w->second, err);
+    bool good     = m.batches && make_lots(a, w, FIRST_ROWS, &w->first, err) &&
+                make_lots(a, w, SECOND_ROWS, &w->second, err);
     if (good)
         parallel_for((int)pairs * SCRAMBLES, threads, make_lot, &m, NULL);
     arena_clear(&scratch);

@@ -6,30 +6,26 @@
 
 #include "sim/sun_patch.h"
 
-/* What is kept of a point; vectors are three fields. */
+/* What is kept of a point: rows of four numbers, side by side, so that a look at one point is a
+ * look at one place of memory. */
 enum {
-    AT     = 0,
-    NORMAL = AT + 3,
-    BEFORE = NORMAL + 3, /* to_sun; from z: to y */
-    LIGHT  = BEFORE + 3, /* e; of z: pi f(y) e */
-    SHINES = LIGHT + 3,  /* given back where all is matt */
-    U      = SHINES + 3,
-    V,
-    FIRST_FIELDS, /* of a patch; the next are of z: */
-    PATCH  = FIRST_FIELDS,
-    TO_SUN = PATCH + 3,
-    AREA   = TO_SUN + 3, /* by c(y, w) */
-    BACK,                /* c(y, z) / |y - z|^2 */
-    DRAWN,               /* the density of z */
-    FIELDS,
+    PLACE_ROW,  /* at, and of z its density */
+    NORMAL_ROW, /* its normal, and of z c(y, w) */
+    BEFORE_ROW, /* toward where its light comes from, and of z c(y, z) / |y - z|^2 */
+    LIGHT_ROW,  /* radiance, where all is matt; else light */
+    HIT_ROW,    /* instance and triangle, as bits, u and v */
+    FIRST_ROWS, /* of a patch; the next are of z: */
+    PATCH_ROW = FIRST_ROWS,
+    SUN_ROW, /* toward the sun from y */
+    SECOND_ROWS,
 };
 
 /* The points of one generation: lots of those of one sun, portal and set stand together, one lot
  * after the other, sun by sun, portal by portal. */
 typedef struct patch_lots {
     int32_t *kept; /* of each lot */
-    float *field[FIELDS];
-    int32_t *instance, *triangle;
+    float *rows;
+    int row_count; /* of a point */
 } patch_lots;
 
 struct sun_patches {

@@ -236,7 +236,7 @@ TEST(a_view_is_mixed_and_shown_with_its_surfaces_kept)
     static const char *const general[] = { "group.general.R", "group.general.G", "group.general.B",
                                            "group.general.illuminance.Y",
                                            "group.general.halfWidth.Y" };
-    static const char *const sky[]     = { "group.sky.R", "group.sky.G", "group.sky.B",
+    static const char *const of_sky[]  = { "group.sky.R", "group.sky.G", "group.sky.B",
                                            "group.sky.illuminance.Y", "group.sky.halfWidth.Y" };
     static const char *const mixed[]   = { "R", "G", "B", "illuminance.Y", "halfWidth.Y" };
     program_result r                   = { 0 };
@@ -246,7 +246,7 @@ TEST(a_view_is_mixed_and_shown_with_its_surfaces_kept)
     image im;
     add_view_group(&p, mixed, 7);
     add_view_group(&p, general, 4);
-    add_view_group(&p, sky, 3);
+    add_view_group(&p, of_sky, 3);
     add(&p, "Z", 5, 0.25f);
     add(&p, "normal.Z", -1, 0);
     write_picture(&p, folder, "view.exr");

@@ -107,7 +107,7 @@ static void roof_light(double size, const double row[POINTS])
     lab l;
     lab_open(&l);
     double low = 2.0 - 0.5 * size, high = 2.0 + 0.5 * size;
-    quad black[10], pane = quad_level(2, 2, 3, size), sky = quad_level(2, 2, 3.05, 6);
+    quad black[10], pane = quad_level(2, 2, 3, size), bright = quad_level(2, 2, 3.05, 6);
     quads_of_box((dvec3){ 0, 0, 0 }, (dvec3){ 4, 4, 3 }, black);
     black[1] = (quad){ { { 0, 0, 3 }, { 4, 0, 3 }, { 4, low, 3 }, { 0, low, 3 } } };
     black[6] = (quad){ { { 0, high, 3 }, { 4, high, 3 }, { 4, 4, 3 }, { 0, 4, 3 } } };
@@ -117,7 +117,7 @@ static void roof_light(double size, const double row[POINTS])
         black[1] = black[0];
     lab_quads(&l, "walls.gltf", black, size < 4.0 ? 9 : 6, "\"name\":\"Black\"");
     lab_quads(&l, "pane.gltf", &pane, 1, "\"name\":\"Glass\"");
-    lab_quads(&l, "sky.gltf", &sky, 1, lab_glow(&l, 1000.0 / M_PI));
+    lab_quads(&l, "sky.gltf", &bright, 1, lab_glow(&l, 1000.0 / M_PI));
     lab_probe p[POINTS];
     points_of_5_10(p);
     double want[POINTS];
@@ -183,12 +183,12 @@ static double material_passes(const void *context, dvec3 wi)
 }
 
 /* Within half of the row's last digit, and 0.1 % for the quadrature and four digits of E_hz. */
-static void under(double (*sky)(dvec3), const quad *pane, dvec3 out, const lab_probe *p, int count,
-                  const double *row)
+static void under(double (*of_sky)(dvec3), const quad *pane, dvec3 out, const lab_probe *p,
+                  int count, const double *row)
 {
     arena a     = { 0 };
     float t     = (float)slab_of(index_of_glass, inner, 1.0).passed;
-    opening o   = { .out = out, .sky = sky };
+    opening o   = { .out = out, .sky = of_sky };
     pane_desc d = { .transmittance = { t, t, t }, .ior = (float)index_of_glass };
     o.pane      = material_pane(&a, &d, NULL);
     assert_non_null(o.pane);

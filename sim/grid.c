@@ -26,6 +26,10 @@ static bool make_threads(grid_run_state *g, arena *a, lux_error *err)
     bool in_room = true;
     for (int k = 0; k < g->r->sensor_count && in_room; k++)
         in_room = scene_is_in_room(g->s, g->r->sensors[k].at);
+    const sun_patches *patches = NULL;
+    if (!g->o->direct_only &&
+        !sun_patches_new(a, g->s, g->seed, g->r->asked, g->o->threads, &patches, err))
+        return false;
     sensor_ask ask = { g->r->grid->quantity, g->r->asked, in_room, g->seed };
     size_t layers  = (size_t)g->layers + 1;
     g->threads     = arena_array(a, thread_scratch, (size_t)g->o->threads, err);
@@ -39,6 +43,7 @@ static bool make_threads(grid_run_state *g, arena *a, lux_error *err)
         w->direct_of_layer = w->of_layer ? arena_array(a, float, layers, err) : NULL;
         if (!w->direct_of_layer || !make_bundle(g, a, &w->bundle, err))
             return false;
+        path_use_patches(w->paths, patches);
     }
     return g->threads != NULL;
 }

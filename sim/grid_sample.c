@@ -271,6 +271,7 @@ void grid_sample(void *context, int thread, const sample_id *ids, int count, flo
         b->nx[i] = normal.x, b->ny[i] = normal.y, b->nz[i] = normal.z;
         b->error[i] = place_error(g->s, place);
         b->index[i] = ids[i].index;
+        b->set[i]   = ids[i].scramble;
         b->seed[i]  = hash_combine_u32(hash_combine_u32(g->seed, cell), ids[i].scramble);
     }
     memset(w->lamp, -1, sizeof w->lamp);

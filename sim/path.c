@@ -37,7 +37,7 @@ path_tracer *path_tracer_new(arena *a, const scene *s, lux_error *err)
         return t;
     t->list  = arena_array(a, int32_t, (size_t)t->shown.count + 1, err);
     t->boxes = lamp_boxes_new(a, s, &t->shown, err);
-    return t->list && t->boxes && path_patches_new(t, a, err) ? t : NULL;
+    return t->list && t->boxes ? t : NULL;
 }
 
 int64_t path_rays(const path_tracer *t) { return t->ray_count + direct_rays(t->direct); }

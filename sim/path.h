@@ -24,6 +24,7 @@
 #define SIM_PATH_H
 
 #include "sim/scene.h"
+#include "sim/sun_patch.h"
 
 enum { PATHS = 1024 }; /* most at once; a multiple of every packet width */
 
@@ -40,6 +41,7 @@ typedef struct path_bundle {
     float nx[PATHS], ny[PATHS], nz[PATHS]; /* unit normal of the lit side, or where it faces; from
                                               the eye the direction */
     uint32_t index[PATHS], seed[PATHS];    /* which sample of which scrambled set */
+    uint32_t set[PATHS];                   /* and the number of that, < SCRAMBLES */
 
     path_sums direct;    /* straight from lamps, if asked for, and from glowing surfaces, thin glass
                             between or not */
@@ -62,6 +64,9 @@ typedef struct path_options {
 
 typedef struct path_tracer path_tracer; /* scratch of one thread */
 path_tracer *path_tracer_new(arena *a, const scene *s, lux_error *err);
+
+/* From now on sunlit patches are asked for light, too; they must outlive t. */
+void path_use_patches(path_tracer *t, const sun_patches *patches);
 
 /* Fills in what the paths of b find: estimates of what their sensor measures, one a path. */
 void path_trace(path_tracer *t, path_bundle *b, const path_options *o);

@@ -39,16 +39,14 @@ enum {
     OUTDOORS  = 16, /* the first surface that it met is outside */
 };
 
-typedef struct sun_patches sun_patches;
-
 struct path_tracer {
     const scene *s;
     const path_options *o;
     direct_scratch *direct;
-    seen_lamps shown;        /* lamps that rays may find */
-    const lamp_boxes *boxes; /* of those */
-    sun_patches *patches;    /* NULL: no sun comes in by a portal */
-    int32_t *list;           /* room for as many */
+    seen_lamps shown;           /* lamps that rays may find */
+    const lamp_boxes *boxes;    /* of those */
+    const sun_patches *patches; /* NULL: no sun comes in by a portal */
+    int32_t *list;              /* room for as many */
     int64_t ray_count;
     path_bundle *b;
     int alive, fields;  /* of those below that are carried */
@@ -164,7 +162,6 @@ void path_ask_sky(path_tracer *t, bool beginning);
 void path_ask_suns(path_tracer *t, bool beginning);
 
 /* Light that comes by way of sunlit patches, which paths find for themselves, too. */
-bool path_patches_new(path_tracer *t, arena *a, lux_error *err);
 void path_ask_patches(path_tracer *t, bool beginning);
 
 /* The density, 1/sr, with which path_ask_patches() draws the way from where packet k was last to

@@ -81,6 +81,10 @@ static void take_pixels(const view_run_state *v, const accuracy_result *got, vie
 
 static bool make_threads(view_run_state *v, arena *a, lux_error *err)
 {
+    const sun_patches *patches = NULL;
+    if (!v->o->direct_only &&
+        !sun_patches_new(a, v->s, v->seed, v->asked, v->o->threads, &patches, err))
+        return false;
     v->shown   = lamps_that_show(a, v->s, err);
     v->threads = v->shown.lamps ? arena_array(a, view_scratch, (size_t)v->o->threads, err) : NULL;
     for (int t = 0; v->threads && t < v->o->threads; t++) {
@@ -93,6 +97,7 @@ static bool make_threads(view_run_state *v, arena *a, lux_error *err)
         w->lamps = arena_array(a, int32_t, (size_t)v->shown.count + 1, err);
         if (!w->paths || !w->lamps || (v->layers && !(w->bundle.layers && w->eye.layers)))
             return false;
+        path_use_patches(w->paths, patches);
     }
     return v->threads != NULL;
 }
@@ -145,6 +150,7 @@ bool view_run(arena *a, const scene *s, const study_view *view, const run_option
                                         .height      = v.camera.height,
                                         .asked = isnan(o->accuracy) ? VIEW_DEFAULT_PERCENT / 100.0 : o->accuracy,
                                         .left_to_chance = scene_left_to_chance(s, o->direct_only) };
+    v.asked            = out->asked;
     progress_begin(o->progress, view->name);
     bool good = run(a, &scratch, &v, out, err);
     for (int t = 0; good && t < o->threads; t++)

@@ -53,6 +53,7 @@ typedef struct view_run_state {
     path_options paths, eye_paths;
     int layers; /* 0 unless the scene is layered */
     seen_lamps shown;
+    double asked; /* the accuracy */
     uint32_t seed;
 } view_run_state;
 

@@ -160,6 +160,7 @@ static void set_out(const view_run_state *v, path_bundle *b, int32_t *sample_of,
     b->ny[p]    = lane(direction.y, at);
     b->nz[p]    = lane(direction.z, at);
     b->index[p] = ids[i].index;
+    b->set[p]   = ids[i].scramble;
     b->seed[p]  = seed_of(v, &ids[i]);
 }
 

@@ -30,9 +30,9 @@ static void room(model *m)
     model_put_new(m, rug(), (point){ 1.75, 5.4, 0.0 }, 0.0);
     model_put_new(m, low_table(), (point){ 1.65, 5.45, 0.0 }, 0.0);
     model_put_new(m, shelf_with_books(), (point){ 2.0, 7.985, 0.0 }, 90.0);
-    const int picture = model_add_shape(m, wall_picture());
-    model_put(m, picture, (point){ 0.0, 5.4, 0.0 }, 0.0);
-    model_put(m, picture, (point){ 4.0, 2.9, 0.0 }, 180.0);
+    const int hung = model_add_shape(m, wall_picture());
+    model_put(m, hung, (point){ 0.0, 5.4, 0.0 }, 0.0);
+    model_put(m, hung, (point){ 4.0, 2.9, 0.0 }, 180.0);
 }
 
 static void yard(model *m)

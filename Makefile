@@ -69,13 +69,14 @@ MODEL  := $(patsubst %.c,$B/%.c.o,$(wildcard data/model/*.c))
 OFFICE := $(patsubst %.c,$B/%.c.o,$(wildcard data/office/*.c))
 CAR    := $(patsubst %.c,$B/%.c.o,$(wildcard data/car/*.c))
 GLASS  := $(patsubst %.c,$B/%.c.o,$(wildcard data/glass/*.c))
+COURT  := $(patsubst %.c,$B/%.c.o,$(wildcard data/courtyard/*.c))
 LAYER  := $(patsubst %.c,$B/%.c.o,$(wildcard data/materials/bsdf_*.c))
 PROG  := $(patsubst sim/main.c,$B/lux4,$(wildcard sim/main.c))
 PLUG  := $(patsubst $(SHIM),$B/liblux4_oiio.so,$(wildcard $(SHIM)))
 TEXT  := $(wildcard $(foreach d,$(LAYERS) tests tests/* data/*,$d/*.[ch] $d/*.cpp))
 
 TO        := $(DESTDIR)$(PREFIX)
-SHIPPED   := data/office data/car data/glass data/materials
+SHIPPED   := data/office data/car data/glass data/courtyard data/materials
 MAKEFLAGS += --no-builtin-rules --no-print-directory
 Q         := $(if $V,,@)
 .DELETE_ON_ERROR:
@@ -107,15 +108,17 @@ $(FUZZERS): $B/%: $B/%.c.o $B/liblux4.a $B/links
 	$Q$(CXX) $(LDFLAGS) $(filter %.o,$^) $(filter %.a,$^) $(LDLIBS) -o $@
 
 # The programs that make the scenes we ship, and the tests of what they make
-MAKERS := $B/make_office $B/make_car $B/make_glass
+MAKERS := $B/make_office $B/make_car $B/make_glass $B/make_courtyard
 $B/make_office: $(OFFICE)
 $B/make_car: $(CAR)
 $B/make_glass: $(GLASS)
+$B/make_courtyard: $(COURT)
 $(MAKERS): $(MODEL) $B/links
 	@echo "LD   $@"
 	$Q$(CXX) $(SANS) $(filter %.o,$^) -lm -o $@
 $B/tests/unit/test_office: $(filter-out %/make_office.c.o,$(OFFICE)) $(MODEL)
 $B/tests/unit/test_car_glass: $(filter-out %/make_car.c.o %/make_glass.c.o,$(CAR) $(GLASS)) $(MODEL)
+$B/tests/unit/test_courtyard: $(filter-out %/make_courtyard.c.o,$(COURT)) $(MODEL)
 
 # The program that makes glazing.xml and blind.xml, and the test of what it makes
 $B/tests/physics/test_layers: $(LAYER)
@@ -163,7 +166,7 @@ $B/flags $B/links: FORCE
 	@mkdir -p $(@D); echo '$(subst ','\'',$(TELL))' | cmp -s - $@ || echo '$(subst ','\'',$(TELL))' > $@
 
 -include $(patsubst %,$B/%.d,$(SRC:=) $(AIDS) sim/main.c) $(addsuffix .c.d,$(TESTS) $(LONG) $(BENCH) $(FUZZERS))
--include $(PLUG:.so=.d) $(patsubst %.o,%.d,$(MODEL) $(OFFICE) $(CAR) $(GLASS) $(LAYER)) $(PLAIN:=.d) $(X87_PLAIN:=_387.d)
+-include $(PLUG:.so=.d) $(patsubst %.o,%.d,$(MODEL) $(OFFICE) $(CAR) $(GLASS) $(COURT) $(LAYER)) $(PLAIN:=.d) $(X87_PLAIN:=_387.d)
 
 # What is missing is installed for check and demo, which set a machine up; else it is named.
 build/pkg.mk: Makefile
@@ -259,7 +262,7 @@ install: all $B/public/liblux4.a
 	install -m 644 sim/lux4.h $(TO)/include/lux4
 	install -m 644 sim/lux4.1 $(TO)/share/man/man1
 	install -m 644 STUDY.md MATERIALS.md $(TO)/share/lux4
-	$Qfor d in $(SHIPPED); do for f in $$d/*.yaml $$d/*.glb $$d/*.ies $$d/*.ldt $$d/*.brdf $$d/*.xml; do \
+	$Qfor d in $(SHIPPED); do for f in $$d/*.yaml $$d/*.glb $$d/*.ies $$d/*.ldt $$d/*.brdf $$d/*.xml $$d/*.exr; do \
 	  [ ! -e $$f ] || install -m 644 $$f $(TO)/share/lux4/$${d#data/} || exit 1; done; done
 	@printf '%s\n' 'prefix=$(PREFIX)' 'Name: lux4' 'Description: lighting-design simulation' 'Version: $(VERSION)' \
 	  'Cflags: -I$${prefix}/include/lux4' 'Requires.private: $(PKGS)' \

@@ -1,7 +1,6 @@
 /* sim/cmd_sky.c -- lux4 sky: the study's sky and sun, as a panorama and as a picture to look at. */
 #include "core/color.h"
 #include "sim/command.h"
-#include "sim/daylight_attributes.h"
 #include "sim/daylight_report.h"
 #include "sim/sky_picture.h"
 #include "sim/tone.h"
@@ -50,7 +49,8 @@ static bool write_exr(const command_context *c, const scene *s, const sky_figure
 {
     float *rgb[3];
     char date[CAP_DATE];
-    if (!sky_panorama_picture(c->a, s, WIDTH, rgb, err))
+    int width = c->line->width ? c->line->width : WIDTH;
+    if (!sky_panorama_picture(c->a, s, width, rgb, err))
         return false;
     image_channel channels[3] = { { "R", rgb[0] }, { "G", rgb[1] }, { "B", rgb[2] } };
     image_attribute attributes[MOST_ATTRIBUTES] = {
@@ -62,15 +62,13 @@ static bool write_exr(const command_context *c, const scene *s, const sky_figure
         { "lux4:study", ATTRIBUTE_STRING, output_study_name(s->study), 0 },
         { "lux4:version", ATTRIBUTE_STRING, LUX4_VERSION, 0 },
     };
-    enum { OWN = 7 };
-    _Static_assert(OWN + DAYLIGHT_ATTRIBUTES + 2 <= MOST_ATTRIBUTES, "variant and partial, too");
-    daylight_attributes(attributes + OWN, date, s->study, s->moments);
-    image im = { .width           = WIDTH,
-                 .height          = WIDTH / 2,
-                 .channel_count   = 3,
-                 .channels        = channels,
-                 .attribute_count = output_attributes(attributes, s->study, false),
-                 .attributes      = attributes };
+    image im = { .width         = width,
+                 .height        = width / 2,
+                 .channel_count = 3,
+                 .channels      = channels,
+                 .attribute_count =
+                     output_attributes(attributes, date, s->study, s->moments, false),
+                 .attributes = attributes };
     return image_write_exr(path, &im, c->line->half, c->notices, err);
 }
 
@@ -195,13 +193,13 @@ const command command_sky = {
     .name    = "sky",
     .files   = "STUDY.yaml",
     .summary = "the study's sky and sun as a panorama .exr and a fisheye .png",
-    .help =
-        "sky.exr is all around, zenith at the top, +y of the scene in the middle, R G B in\n"
-        "W/(sr m2) (times 179: cd/m2): read back as {model: panorama, file: sky.exr} it gives\n"
-        "the same light; the sun in it is found again and made a lamp. Nothing of the building\n"
-        "is in it. sky.png looks up: north (+y) is up, east to the left, as on maps of stars.\n"
-        "Printed: place and time, the sun, by which formulae sky and sun are as bright as they\n"
-        "are, illuminance on level ground in lx, luminance at the zenith in cd/m2.\n",
-    .options = " -o --overwrite --variant --threads --half --exposure --json --quiet ",
+    .help    = "sky.exr is all around, zenith at the top, +y of the scene in the middle, R G B in\n"
+               "W/(sr m2) (times 179: cd/m2): read back as {model: panorama, file: sky.exr} it gives\n"
+               "the same light; the sun in it is found again and made a lamp (but with --half, whose\n"
+               "numbers cannot hold it). Nothing of the building is in it. sky.png looks up: north\n"
+               "(+y) is up, east to the left, as on maps of stars. Printed: place and time, the sun,\n"
+               "by which formulae sky and sun are as bright as they are, illuminance on level ground\n"
+               "in lx, luminance at the zenith in cd/m2.\n",
+    .options = " -o --overwrite --variant --threads --width --half --exposure --json --quiet ",
     .run     = sky_command,
 };

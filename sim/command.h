@@ -35,6 +35,7 @@ typedef struct command_line {
     bool quiet, json, direct_only, half, groups, schedule;
     double accuracy;                   /* 0.02 for 2%; NAN */
     double seconds;                    /* NAN */
+    int width;                         /* of sky's panorama; 0: the default */
     double exposure_ev;                /* 0: as the picture's average asks */
     const char *plot, *write, *swatch; /* NULL */
     const char *variant;               /* of the study; NULL */

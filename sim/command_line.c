@@ -41,6 +41,7 @@ static const option options[] = {
     { "--step", "MIN", "minutes from one time to the next (default: the study's, or else 60)",
       true },
     { "--factor", NULL, "the daylight factor in place of a series", true },
+    { "--width", "PIXELS", "across the panorama (default 2048); it is half as high", true },
     { "--half", NULL, "write 16-bit floats" },
     { "--exposure", "EV", "brighter or darker preview, in stops" },
     { "--plot", "FILE.svg", "draw it, as said above", true },
@@ -208,6 +209,13 @@ static bool take(command_line *l, const char *name, const char *value, lux_error
         l->groups = true;
     } else if (!strcmp(name, "--schedule")) {
         l->schedule = true;
+    } else if (!strcmp(name, "--width")) {
+        const char *wanted = "an even number of pixels from 64 to 16384";
+        if (!whole(name, value, 64.0, 16384.0, wanted, &n, err))
+            return false;
+        l->width = (int)n;
+        return l->width % 2 == 0 ||
+               failed(err, ERR_ARGUMENT, "%s %s: expected %s", name, value, wanted);
     } else if (!strcmp(name, "--half")) {
         l->half = true;
     } else if (!strcmp(name, "--json")) {

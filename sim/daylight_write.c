@@ -124,7 +124,8 @@ static bool add_attributes(arena *a, const study *from, const daylight_series *s
 {
     const moment *m     = &s->moments[h];
     image_attribute *at = arena_array(a, image_attribute, MOST_ATTRIBUTES, err);
-    if (!at)
+    char *date          = at ? arena_array(a, char, CAP_DATE, err) : NULL;
+    if (!date)
         return false;
     int count   = 0;
     at[count++] = number_attribute("whiteLuminance", LUMENS_PER_WATT);
@@ -142,7 +143,7 @@ static bool add_attributes(arena *a, const study *from, const daylight_series *s
         at[count++] = number_attribute("lux4:sunElevation", m->sun.elevation_deg);
     }
     to->attributes      = at;
-    to->attribute_count = output_attributes(at, from, s->end == RUN_INTERRUPTED);
+    to->attribute_count = output_attributes(at, date, from, m, s->end == RUN_INTERRUPTED);
     return true;
 }
 
@@ -163,6 +164,7 @@ bool daylight_write_exr(const char *path, const study *from, const daylight_seri
 bool daylight_factor_write_exr(const char *path, const study *from, const daylight_factor *d,
                                lux_error *err)
 {
+    char date[CAP_DATE];
     const grid_result *r                = d->plan;
     image_attribute at[MOST_ATTRIBUTES] = {
         number_attribute("lux4:accuracy", r->asked),
@@ -181,7 +183,7 @@ bool daylight_factor_write_exr(const char *path, const study *from, const daylig
                            { "halfWidth.Y", d->half_width } };
     arena a            = { 0 };
     image im           = { .attributes = at };
-    im.attribute_count = output_attributes(at, from, r->end == RUN_INTERRUPTED);
+    im.attribute_count = output_attributes(at, date, from, NULL, r->end == RUN_INTERRUPTED);
     bool good =
         add_planes(&a, r, planes, 5, &im, err) && image_write_exr(path, &im, false, NULL, err);
     arena_clear(&a);

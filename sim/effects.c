@@ -10,6 +10,10 @@ const char *effect_name(effect e)
         [EFFECT_AREA_LIGHTS]     = "area-lights",
         [EFFECT_NEAR_FIELD]      = "near-field",
         [EFFECT_MANY_LIGHTS]     = "many-lights",
+        [EFFECT_SUN]             = "sun",
+        [EFFECT_SKY]             = "sky",
+        [EFFECT_PORTALS]         = "portals",
+        [EFFECT_PANORAMA]        = "panorama",
         [EFFECT_INTERREFLECTION] = "interreflection",
         [EFFECT_MIRRORS]         = "mirrors",
         [EFFECT_REFRACTION]      = "refraction",
@@ -65,6 +69,14 @@ static void add_materials(const scene *s, bool back, effects *all)
     }
 }
 
+static void add_daylight(const scene *s, bool on[EFFECTS])
+{
+    on[EFFECT_SUN]      = s->sun_count > 0;
+    on[EFFECT_SKY]      = s->dome != NULL;
+    on[EFFECT_PORTALS]  = s->dome && s->portals;
+    on[EFFECT_PANORAMA] = s->dome && s->study->sky.model == STUDY_SKY_PANORAMA;
+}
+
 effects effects_of_grids(const scene *s, bool direct_only, bool outside)
 {
     bool lit      = scene_is_lit(s);
@@ -78,9 +90,10 @@ effects effects_of_grids(const scene *s, bool direct_only, bool outside)
         points |= open && !light_has_extent(s->lights[l]);
         on[EFFECT_NEAR_FIELD] |= has_opening(s, l);
     }
-    on[EFFECT_SHADOWS]         = shadowed || s->glows;
+    add_daylight(s, on);
+    on[EFFECT_SHADOWS]         = shadowed || s->glows || s->dome;
     on[EFFECT_AREA_LIGHTS]     = s->extended || s->emitter_count > 0;
-    on[EFFECT_MANY_LIGHTS]     = s->light_count > ASKED_LAMPS && points;
+    on[EFFECT_MANY_LIGHTS]     = scene_lamp_count(s) > ASKED_LAMPS && points;
     on[EFFECT_INTERREFLECTION] = back;
     if (lit)
         add_materials(s, back, &all);

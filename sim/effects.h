@@ -9,6 +9,10 @@ typedef enum effect {
     EFFECT_AREA_LIGHTS,
     EFFECT_NEAR_FIELD,
     EFFECT_MANY_LIGHTS,
+    EFFECT_SUN,      /* a disk as much as a point: no area light */
+    EFFECT_SKY,      /* of whatever kind, and the ground below it */
+    EFFECT_PORTALS,  /* it is looked for through them */
+    EFFECT_PANORAMA, /* it is a picture's */
     EFFECT_INTERREFLECTION,
     EFFECT_MIRRORS,    /* light that comes back to one direction each, off glass too */
     EFFECT_REFRACTION, /* through solids */

@@ -113,6 +113,7 @@ bool grid_write_exr(const char *path, const scene *s, const grid_result *r, noti
     exr_work w = { .r = r, .err = err };
     bool good  = make_channels(&w, s);
     if (good) {
+        char date[CAP_DATE];
         image_attribute attributes[MOST_ATTRIBUTES] = {
             { "whiteLuminance", ATTRIBUTE_FLOAT, NULL, (float)LUMENS_PER_WATT },
             { "lux4:accuracy", ATTRIBUTE_FLOAT, NULL, (float)r->asked },
@@ -126,12 +127,13 @@ bool grid_write_exr(const char *path, const scene *s, const grid_result *r, noti
               0 },
         };
         bool partial = r->end == RUN_INTERRUPTED;
-        image im     = { .width           = r->columns,
-                         .height          = r->rows,
-                         .channel_count   = w.count,
-                         .channels        = w.channels,
-                         .attribute_count = output_attributes(attributes, s->study, partial),
-                         .attributes      = attributes };
+        image im     = { .width         = r->columns,
+                         .height        = r->rows,
+                         .channel_count = w.count,
+                         .channels      = w.channels,
+                         .attribute_count =
+                             output_attributes(attributes, date, s->study, s->moments, partial),
+                         .attributes = attributes };
         good         = image_write_exr(path, &im, false, n, err);
     }
     arena_clear(&w.a);

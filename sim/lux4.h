@@ -13,7 +13,8 @@
  * Link with what `pkg-config --libs lux4` says. Nothing here prints or ends the program. A study is
  * used by one thread at a time (it runs on as many as the options say); different studies are
  * independent. Numbers are in the units that their names end in; places in metres, x east,
- * y north, z up.
+ * y north, z up. Sun and sky of a study light its grids and views as lamps do, at the one moment of
+ * its `when`; a series of moments is an error here.
  */
 #ifndef LUX4_H
 #define LUX4_H

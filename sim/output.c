@@ -16,11 +16,13 @@ const char *output_study_name(const study *s)
     return slash ? slash + 1 : s->path;
 }
 
-int output_attributes(image_attribute all[MOST_ATTRIBUTES], const study *s, bool partial)
+int output_attributes(image_attribute all[MOST_ATTRIBUTES], char date[CAP_DATE], const study *s,
+                      const moment *m, bool partial)
 {
     int count = 0;
-    while (count < MOST_ATTRIBUTES - 2 && all[count].name)
+    while (count < MOST_OWN_ATTRIBUTES && all[count].name)
         count++;
+    count += daylight_attributes(all + count, date, s, m);
     if (s->variant)
         all[count++] = (image_attribute){ "lux4:variant", ATTRIBUTE_STRING, s->variant, 0 };
     if (partial)

@@ -10,6 +10,7 @@
 #include "core/arena.h"
 #include "core/error.h"
 #include "core/image.h"
+#include "sim/daylight_attributes.h"
 #include "sim/study.h"
 
 typedef struct output_place {
@@ -31,10 +32,12 @@ bool output_check(const study *s, const output_place *o, const char *name,
  * --overwrite. NULL: there is nothing to write. */
 bool output_free(const char *path, bool overwrite, lux_error *err);
 
-/* Adds what only some results say, the study's variant and that they are partial, to the
- * attributes of an EXR: behind those that have a name. How many there are then. */
-enum { MOST_ATTRIBUTES = 16 };
-int output_attributes(image_attribute all[MOST_ATTRIBUTES], const study *s, bool partial);
+/* Adds what only some results say to the attributes of an EXR, behind those that have a name: the
+ * place on Earth and the moment `m` (NULL: of none), whose text `date` holds; the study's variant;
+ * that they are partial. How many there are then. */
+enum { MOST_ATTRIBUTES = 24, MOST_OWN_ATTRIBUTES = MOST_ATTRIBUTES - DAYLIGHT_ATTRIBUTES - 2 };
+int output_attributes(image_attribute all[MOST_ATTRIBUTES], char date[CAP_DATE], const study *s,
+                      const moment *m, bool partial);
 
 /* The study's file name without its folders: what an EXR says made it. */
 const char *output_study_name(const study *s);

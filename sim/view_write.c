@@ -50,6 +50,7 @@ bool view_write_exr(const char *path, const scene *s, const view_result *r, bool
 {
     arena scratch = { 0 };
     int channel_count;
+    char date[CAP_DATE];
     image_channel *channels                     = channels_of(&scratch, s, r, &channel_count, err);
     image_attribute attributes[MOST_ATTRIBUTES] = {
         { "whiteLuminance", ATTRIBUTE_FLOAT, NULL, (float)LUMENS_PER_WATT },
@@ -64,12 +65,13 @@ bool view_write_exr(const char *path, const scene *s, const view_result *r, bool
         { "lux4:interval", ATTRIBUTE_STRING, r->left_to_chance ? r->left_to_chance : "valid", 0 },
     };
     bool partial = r->end == RUN_INTERRUPTED;
-    image im     = { .width           = r->width,
-                     .height          = r->height,
-                     .channel_count   = channel_count,
-                     .channels        = channels,
-                     .attribute_count = output_attributes(attributes, s->study, partial),
-                     .attributes      = attributes };
+    image im     = { .width         = r->width,
+                     .height        = r->height,
+                     .channel_count = channel_count,
+                     .channels      = channels,
+                     .attribute_count =
+                         output_attributes(attributes, date, s->study, s->moments, partial),
+                     .attributes = attributes };
     bool good    = channels && image_write_exr(path, &im, half, n, err);
     arena_clear(&scratch);
     return good;

@@ -100,6 +100,28 @@ TEST(the_panorama_says_where_and_when_it_is_of)
     folder_free(folder);
 }
 
+TEST(a_panorama_is_as_wide_as_asked_for)
+{
+    char *folder     = folder_of_study(clear);
+    program_result r = { 0 };
+    arena a          = { 0 };
+    image im;
+    LUX4(folder, 0, &r, "sky", "study.yaml", "--variant", "uniform", "--width", "130");
+    read_sky(&a, folder, &im);
+    assert_int_equal(im.width, 130);
+    assert_int_equal(im.height, 65);
+    assert_near(im.channels[0].values[130 * 31 + 7], 9000.0 / 179.0 / M_PI, 1e-6);
+    LUX4_FAILS(folder, 2, "--width 129: expected an even number of pixels from 64 to 16384", "sky",
+               "study.yaml", "--width", "129");
+    LUX4_FAILS(folder, 2, "--width 62: expected an even number", "sky", "study.yaml", "--width",
+               "62");
+    LUX4_FAILS(folder, 2, "--width has no meaning for lux4 grid", "grid", "study.yaml", "--width",
+               "64");
+    arena_clear(&a);
+    program_free(&r);
+    folder_free(folder);
+}
+
 /* Sky and sun as they come out of the study that is asked for. */
 static void figures(const char *folder, const char *variant, program_result *r)
 {
@@ -188,6 +210,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_uniform_sky_is_even_above_and_black_below),
         cmocka_unit_test(the_panorama_says_where_and_when_it_is_of),
+        cmocka_unit_test(a_panorama_is_as_wide_as_asked_for),
         cmocka_unit_test(read_back_as_a_panorama_it_gives_the_same_light),
         cmocka_unit_test(a_sun_that_is_a_point_has_its_energy_in_the_picture_too),
         cmocka_unit_test(what_cannot_be_is_refused),

@@ -1,6 +1,7 @@
 /* tests/unit/test_effects.c -- which effects are told of, in scenes that have them or have not. */
 #include "sim/effects.h"
 #include "tests/folder.h"
+#include "tests/panorama_file.h"
 #include "tests/test.h"
 
 #include <stdio.h>
@@ -135,6 +136,37 @@ TEST(solids_and_holes_call_for_effects)
     folder_free(folder);
 }
 
+/* A sun is no area light, be it a disk or a point; what a closed room keeps out is told of, too. */
+TEST(daylight_calls_for_its_effects)
+{
+#define HOLE                                                                                       \
+    "lux4: 1\nroom: {size: [4, 3, 2.5], reflectance: 0.5, windows: [{wall: south, at: [1, 1], "    \
+    "size: [2, 1]}]}\n"
+#define SUN "sun_at: {azimuth: 180, elevation: 40}, horizontal: 10000, sun_illuminance: 50000"
+    assert_effects("shadows sky portals interreflection ", false, false,
+                   HOLE "sky: {model: overcast, horizontal: 10000}\n");
+    assert_effects("shadows sun sky portals interreflection ", false, false,
+                   HOLE "sky: {model: clear, sun: disk, " SUN "}\n");
+    assert_effects("shadows sun sky portals ", true, false,
+                   HOLE "sky: {model: clear, sun: point, " SUN "}\n");
+    assert_effects("shadows sky portals ", true, false,
+                   HOLE "sky: {model: clear, sun: off, sun_at: {azimuth: 180, elevation: 40}, "
+                        "horizontal: 10000}\n");
+    assert_effects("shadows sky ", true, false, ROOM "sky: {model: uniform, horizontal: 1}\n");
+    assert_effects("", true, false, HOLE "sky: {model: none}\n");
+}
+
+TEST(skies_of_pictures_are_panoramas)
+{
+    char text[400];
+    file_box b = file_box_new();
+    file_box_fill(&b, 16, 8, 1.0f, 1.0f, 1.0f);
+    file_box_store(&b, 16, 8);
+    snprintf(text, sizeof text, HOLE "sky: {model: panorama, file: %s}\n", b.path);
+    assert_effects("shadows sky portals panorama interreflection ", false, false, text);
+    file_box_free(&b);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -145,6 +177,8 @@ int main(void)
         cmocka_unit_test(a_luminaire_with_an_opening_has_a_near_field),
         cmocka_unit_test(materials_call_for_effects),
         cmocka_unit_test(solids_and_holes_call_for_effects),
+        cmocka_unit_test(daylight_calls_for_its_effects),
+        cmocka_unit_test(skies_of_pictures_are_panoramas),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -15,7 +15,12 @@ static const char study_text[] =
     "grids:\n"
     "  - {name: floor, origin: [0, 0, 0], u: [4, 0, 0], v: [0, 4, 0], spacing: 1}\n"
     "  - {name: heads, on: room, height: 1, spacing: 2, quantity: cylindrical}\n"
-    "variants: {dim: {lights: [{type: point, at: [2, 2, 2], lumens: 1000}]}}\n"
+    "variants:\n"
+    "  dim: {lights: [{type: point, at: [2, 2, 2], lumens: 1000}]}\n"
+    "  day: {room: ~, lights: ~, sky: {model: uniform, horizontal: 10000}, grids: [{name: open, "
+    "origin: [0, 0, 0], u: [1, 0, 0], v: [0, 1, 0], spacing: 1}]}\n"
+    "  series: {site: {place: 52N 13E}, when: {date: 2026-03-20, from: \"10:00\"}, sky: {model: "
+    "clear}}\n"
     "views: [{name: wall, eye: [2, 1, 2], target: [2, 4, 2], size: [16, 12]}]\n";
 
 static char path[] = "/tmp/lux4-library-XXXXXX";
@@ -82,6 +87,24 @@ TEST(a_variant_is_opened_by_its_name)
 }
 
 /* L = rho E / pi: a matt wall of 50 %, E of which the view holds too. */
+/* Under the open sky all that the study says of it arrives, unscattered. */
+TEST(daylight_counts_as_lamps_do)
+{
+    lux4_error err = { 0 };
+    lux4 *study    = lux4_open_variant(path, "day", &err);
+    assert_non_null(study);
+    lux4_grid *g = lux4_run_grid(study, 0, NULL, &err);
+    assert_non_null(g);
+    assert_near(g->average_lx, 10000.0, 0.02); /* the accuracy of grids */
+    assert_near(g->direct_lx[0], g->illuminance_lx[0], 1e-12);
+    lux4_grid_free(g);
+    lux4_close(study);
+
+    assert_null(lux4_open_variant(path, "series", &err)); /* one moment at a time */
+    assert_int_equal(err.code, LUX4_INPUT);
+    assert_non_null(strstr(err.text, "series"));
+}
+
 TEST(a_view_holds_radiance_and_illuminance)
 {
     lux4 *study  = lux4_open(path, NULL);
@@ -135,6 +158,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_grid_runs_and_says_how_good_it_is),
         cmocka_unit_test(a_variant_is_opened_by_its_name),
+        cmocka_unit_test(daylight_counts_as_lamps_do),
         cmocka_unit_test(a_view_holds_radiance_and_illuminance),
         cmocka_unit_test(warnings_are_told),
         cmocka_unit_test(errors_are_values),

@@ -7,7 +7,7 @@
  * (5.9, 5.10: toward +y) or before the window (toward -y), and gives no light itself.
  *
  * Tolerance: half of the last digit printed here, and the larger of the accuracy asked for and the
- * interval of 99.9 %: 0.3 % in all, where 0.5 % is wanted.
+ * interval of 99.9 %: about 0.4 % in all, where 0.5 % is wanted.
  */
 #include "sim/daylight_factor.h"
 #include "tests/folder.h"
@@ -19,7 +19,7 @@ enum { WALL = 6, FLOOR = 8, POINTS = WALL + FLOOR, ALL_POINTS = POINTS + FLOOR }
 
 static const double e_hz     = 10000.0; /* lx */
 static const double ground   = 0.3;
-static const double accuracy = 0.003;
+static const double accuracy = 0.004;
 static const double n_glass = 1.53, inner = 0.964; /* one way through the glass leaves so much */
 
 /* ---- rooms and points ------------------------------------------------------------------------ */
@@ -106,7 +106,8 @@ static void judge(const char *what, int type, const grid_result *r, const double
 
 /* The room is black: what is not straight from the sky is from the ground, or from what stands
  * outside. Of an opening without glass that of the ground has a closed form; the interval is of the
- * sum, in which the noise of the parts cancels: where a ray finds ground, it finds no sky. */
+ * sum, in which the noise of the parts cancels: where a ray finds ground, it finds no
+ * sky. So parts are known to 1 % of the sum alone. */
 static void judge_parts(opening o, bool glass, const lab_probe *p, const grid_result *r)
 {
     for (int i = 0; i < r->sensor_count; i++) {
@@ -120,7 +121,8 @@ static void judge_parts(opening o, bool glass, const lab_probe *p, const grid_re
         double want = lux * ground * e_hz / M_PI, half = 2.0 * r->half_width[i];
         if (glass)
             assert_true(r->outside[i] <= 0.89 * want + half && (r->outside[i] > 0.0) == below);
-        else if (!(fabs(r->outside[i] - want) <= 1e-5 * want + fmax(half, 0.01 * want)))
+        else if (!(fabs(r->outside[i] - want) <=
+                   1e-5 * want + fmax(half, 0.01 * r->illuminance[i])))
             fail_msg("sensor %d: %.6g lx from outside, not %.6g", i, r->outside[i], want);
     }
 }

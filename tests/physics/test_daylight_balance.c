@@ -1,15 +1,15 @@
 /* tests/physics/test_daylight_balance.c -- daylight that comes into a closed white room leaves it,
  * or is absorbed by its surfaces.
  *
- * A room of reflectance rho with one open window: what comes in, F, is that which a black room's
- * surfaces get. Each reflection leaves the absorbed share, and what goes out by the window again
- * is what arrives there from within:
+ * A room of reflectance rho with one open window, in which E is the indirect illuminance of its
+ * surfaces, and E_w that of the inner side of the window, facing the room. Of the flux F that comes
+ * in, rho F is reflected first; of that, each surface absorbs its share or the window lets it go:
  *
- *     F = (1 - rho) sum E_i A_i + F_out,      F_out = E_w A_w
+ *     rho F = (1 - rho) sum E_i A_i + E_w A_w
  *
- * with E_w on the inner side of the window, facing the room. F itself has a closed form: sun by
- * E_n cos(a) A_w; of a uniform sky pi L / 2 on the upright window, of black ground nothing.
- * Sensors stand in the middle of cells; the error of that is measured with F in the black room.
+ * F has a closed form: of the sun E_n cos(a) A_w, of a uniform sky pi L / 2 A_w on the upright
+ * window, of black ground nothing. Sensors stand in the middle of cells of 0.25 m; they are off by
+ * 20 % each at most, which a thousand of them even out, and by the midpoint rule near edges: 0.5 % in all.
  */
 #include "tests/gltf_text.h"
 #include "tests/lab.h"
@@ -17,8 +17,8 @@
 
 static const double sun_lx = 40000.0, sky_lx = 12000.0; /* square to the beam; on level ground */
 static const double azimuth_deg = 170.0, elevation_deg = 35.0;
-static const double width = 3.0, depth = 4.0, height = 2.5;                     /* m */
-static const double window_at[2] = { 0.9, 0.8 }, window_size[2] = { 1.2, 1.2 }; /* m */
+static const double width = 3.0, depth = 4.0, height = 2.5;                      /* m */
+static const double window_at[2] = { 1, 0.75 }, window_size[2] = { 1.25, 1.25 }; /* m */
 
 /* Sensors in the middle of square cells of the six sides; those of the wall y = 0 whose cell is
  * the window's face in from the window: what goes out. `cell` divides all lengths above. */
@@ -64,68 +64,51 @@ static cells cells_of(arena *a, double cell)
     return c;
 }
 
-/* Direct on all sides, and what is left of it. */
-typedef struct balance {
-    double in;                /* lm: direct light on all surfaces */
-    double absorbed;          /* lm */
-    double out;               /* lm, by the window */
-    double half_in, half_all; /* lm: the sum of half widths, which the error of the sum is within */
-} balance;
-
-static balance balance_of(double rho, const char *model, bool sun, double cell)
+static void all_is_accounted_for(bool sun, double rho)
 {
     lab l;
     lab_open(&l);
-    cells c = cells_of(&l.a, cell);
+    cells c = cells_of(&l.a, 0.25);
     grid_result r;
-    lab_measure(&l,
-                text_of(&l.a,
-                        "room: {size: [%g, %g, %g], reflectance: %g, windows: [{wall: south, "
-                        "at: [%g, %g], size: [%g, %g]}]}\n"
-                        "sky: {model: %s, sun: %s, sun_at: {azimuth: %g, elevation: %g}, ground: 0,"
-                        "\n      horizontal: %g, sun_illuminance: %g}",
-                        width, depth, height, rho, window_at[0], window_at[1], window_size[0],
-                        window_size[1], model, sun ? "point" : "off", azimuth_deg, elevation_deg,
-                        sun ? 1e-6 : sky_lx, sun_lx),
-                NULL, c.p, c.count, &(run_options){ .accuracy = 0.03 }, &r);
-    balance b = { 0 };
+    lab_measure(
+        &l,
+        text_of(&l.a,
+                "room: {size: [%g, %g, %g], reflectance: %g, windows: [{wall: south, "
+                "at: [%g, %g], size: [%g, %g]}]}\n"
+                "sky: {model: %s, sun_at: {azimuth: %g, elevation: %g}, ground: 0, "
+                "horizontal: %g, %s}",
+                width, depth, height, rho, window_at[0], window_at[1], window_size[0],
+                window_size[1], sun ? "clear" : "uniform", azimuth_deg, elevation_deg,
+                sun ? 1e-6 : sky_lx,
+                sun ? text_of(&l.a, "sun: point, sun_illuminance: %g", sun_lx) : "sun: off"),
+        NULL, c.p, c.count, &(run_options){ .accuracy = 0.2 }, &r);
+    double direct = 0.0, absorbed = 0.0, out = 0.0;
     for (int i = 0; i < c.count; i++) {
-        double a = c.area[i];
-        b.in += c.in_window[i] ? 0.0 : r.direct[i] * a;
-        b.absorbed += c.in_window[i] ? 0.0 : (1.0 - rho) * r.illuminance[i] * a;
-        b.out += c.in_window[i] ? r.illuminance[i] * a : 0.0;
-        b.half_all += r.half_width[i] * a;
+        direct += c.in_window[i] ? 0.0 : r.direct[i] * c.area[i];
+        absorbed += c.in_window[i] ? 0.0 : (1.0 - rho) * r.indirect[i] * c.area[i];
+        out += c.in_window[i] ? r.indirect[i] * c.area[i] : 0.0;
     }
-    lab_close(&l);
-    return b;
-}
-
-/* Sensors' errors are independent of each other: their sum is far surer than each. */
-static void all_is_accounted_for(const char *model, bool sun, double rho, double tolerance)
-{
-    const double cell = 0.1;
     double a = azimuth_deg * M_PI / 180.0, h = elevation_deg * M_PI / 180.0;
     double area = window_size[0] * window_size[1];
     double in   = area * (sun ? -sun_lx * cos(a) * cos(h) : 0.5 * sky_lx);
-    balance b   = balance_of(rho, model, sun, cell);
-    print_message(
-        "           %s, %g: in %.6g lm, of sensors %.6g, absorbed %.6g, out %.6g: %+.2e\n",
-        sun ? "sun" : model, rho, in, b.in, b.absorbed, b.out, (b.absorbed + b.out) / b.in - 1.0);
-    assert_near(b.in, in, tolerance);
-    assert_near(b.absorbed + b.out, b.in, tolerance);
-    assert_true(b.out > 0.01 * in && b.out < 0.5 * in);
+    print_message("           in %.6g lm, direct %.6g, absorbed again %.6g, out %.6g: %+.2e\n", in,
+                  direct, absorbed, out, (absorbed + out) / (rho * in) - 1.0);
+    assert_near(direct, in, sun ? 0.1 : 0.01); /* cells do not tell where a patch ends */
+    assert_near(absorbed + out, rho * in, 0.005);
+    assert_true(out > 0.01 * in && out < 0.5 * in);
+    lab_close(&l);
 }
 
 TEST(sunlight_that_comes_in_is_absorbed_or_leaves)
 {
-    all_is_accounted_for("clear", true, 0.5, 0.01);
-    all_is_accounted_for("clear", true, 0.8, 0.01);
+    all_is_accounted_for(true, 0.5);
+    all_is_accounted_for(true, 0.8);
 }
 
 TEST(skylight_that_comes_in_is_absorbed_or_leaves)
 {
-    all_is_accounted_for("uniform", false, 0.5, 0.005);
-    all_is_accounted_for("uniform", false, 0.8, 0.005);
+    all_is_accounted_for(false, 0.5);
+    all_is_accounted_for(false, 0.8);
 }
 
 int main(void)

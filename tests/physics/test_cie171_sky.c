@@ -6,8 +6,8 @@
  * the floor, G'-N' on the ceiling above them. The sun stands at 60 degrees before the wall A-F
  * (5.9, 5.10: toward +y) or before the window (toward -y), and gives no light itself.
  *
- * Tolerance: half of the last digit printed here, and the larger of the accuracy asked for and the
- * interval of 99.9 %: about 0.4 % in all, where 0.5 % is wanted.
+ * Tolerance: half of the last digit printed here, and the larger of 0.5 %, which is asked for, and
+ * the interval of 99.9 %.
  */
 #include "sim/daylight_factor.h"
 #include "tests/folder.h"
@@ -19,7 +19,7 @@ enum { WALL = 6, FLOOR = 8, POINTS = WALL + FLOOR, ALL_POINTS = POINTS + FLOOR }
 
 static const double e_hz     = 10000.0; /* lx */
 static const double ground   = 0.3;
-static const double accuracy = 0.004;
+static const double accuracy = 0.005;
 static const double n_glass = 1.53, inner = 0.964; /* one way through the glass leaves so much */
 
 /* ---- rooms and points ------------------------------------------------------------------------ */
@@ -132,7 +132,8 @@ typedef struct reference {
     double row[POINTS]; /* percent */
 } reference;
 
-/* Each sky through one opening; ceiling: of its points, under any of them; NULL: a roof. */
+/* Each sky through one opening; ceiling: of its points, which see the ground alone, so that the
+ * first sky will do; NULL: a roof. */
 static void run_case(const char *what, opening o, bool glass, const reference *rows, int count,
                      const double *ceiling)
 {
@@ -141,7 +142,7 @@ static void run_case(const char *what, opening o, bool glass, const reference *r
         lab_open(&l);
         lab_probe p[ALL_POINTS];
         double row[ALL_POINTS];
-        int n = points_of(o, p);
+        int all = points_of(o, p), n = k == 0 ? all : POINTS;
         for (int i = 0; i < n; i++)
             row[i] = i < POINTS ? rows[k].row[i] : ceiling[i - POINTS];
         grid_result r;
@@ -367,9 +368,9 @@ static void floor_behind(const char *what, const quad *outside, double exitance,
 }
 
 /* Rays through the window from x = 2 pass under the overhang within x = 2 +- 5, and meet the mask
- * within +- 25: as good as infinite. */
+ * within +- 5.8 (from y = 1.25; closer ones pass above it): as good as infinite. */
 static const quad overhang = { { { -4, -1, 3 }, { 8, -1, 3 }, { 8, 0, 3 }, { -4, 0, 3 } } };
-static const quad mask     = { { { -30, -6, 0 }, { 34, -6, 0 }, { 34, -6, 6 }, { -30, -6, 6 } } };
+static const quad mask     = { { { -4, -6, 0 }, { 8, -6, 0 }, { 8, -6, 6 }, { -4, -6, 6 } } };
 
 TEST(case_5_13_an_overhang_of_1_m)
 {

@@ -9,7 +9,7 @@
  *
  * F has a closed form: of the sun E_n cos(a) A_w, of a uniform sky pi L / 2 A_w on the upright
  * window, of black ground nothing. Sensors stand in the middle of cells of 0.25 m; they are off by
- * 20 % each at most, which a thousand of them even out, and by the midpoint rule near edges: 0.5 % in all.
+ * 20 % each at most, which a thousand of them even out, and by the midpoint rule near edges: 0.75 % in all.
  */
 #include "tests/gltf_text.h"
 #include "tests/lab.h"
@@ -94,7 +94,7 @@ static void all_is_accounted_for(bool sun, double rho)
     print_message("           in %.6g lm, direct %.6g, absorbed again %.6g, out %.6g: %+.2e\n", in,
                   direct, absorbed, out, (absorbed + out) / (rho * in) - 1.0);
     assert_near(direct, in, sun ? 0.1 : 0.01); /* cells do not tell where a patch ends */
-    assert_near(absorbed + out, rho * in, 0.005);
+    assert_near(absorbed + out, rho * in, 0.0075);
     assert_true(out > 0.01 * in && out < 0.5 * in);
     lab_close(&l);
 }

@@ -194,12 +194,15 @@ tests: all $(TESTS)
 check-long: all $(LONG)
 	$Qfor t in $(LONG); do $$t || exit 1; done
 
-## demo: the office, a car and a room of glass: illuminance tables, and pictures in their folders' out/
+## demo: the office, a car, a room of glass and a courtyard by day: tables, and pictures in their folders' out/
 demo: all
 	$(PROG) grid data/office/office.yaml
 	$(PROG) render data/office/office.yaml --accuracy 25%
 	for s in car glass; do \
 	  $(PROG) grid data/$$s/$$s.yaml && { $(PROG) render data/$$s/$$s.yaml --time 45 || [ $$? = 3 ]; } || exit; done
+	for c in "daylight --time 15" "daylight --factor --time 5 -o data/courtyard/out/factor --overwrite" \
+	  "render --variant noon --time 20"; do \
+	  $(PROG) $$c data/courtyard/courtyard.yaml || [ $$? = 3 ] || exit; done
 
 ## bench: rays per second of packets, of one ray at a time and of Embree, appended to build/bench.log
 bench: bench-deps build/bench/office-65000.glb build/bench/office-270000.glb

@@ -33,6 +33,7 @@ static const char room[] =
     "  full: {sky: {horizontal: 10000, sun_illuminance: 0.001}, dimming: {lamp: 0}}\n"
     "  nowhere: {site: ~, when: ~, sky: ~}\n"
     "  by-hand: {site: ~, when: ~, sky: {sun_at: {azimuth: 180, elevation: 50}}}\n"
+    "  unlit: {when: {date: 2026-12-21, from: \"06:00\"}, lights: ~}\n"
     "  series: {when: {date: 2026-12-21, from: \"11:00\", to: \"12:00\"}}\n";
 
 static char *folder;
@@ -263,6 +264,17 @@ TEST(each_part_of_a_series_says_its_own_time)
     }
 }
 
+TEST(a_night_in_a_series_leaves_nothing_to_chance)
+{
+    program_result r = { 0 };
+    LUX4(folder, 0, &r, "daylight", "study.yaml", "--accuracy", "20%", "-o", "night", "--variant",
+         "unlit", "--from", "06:00", "--to", "12:00", "--step", "360");
+    assert_non_null(strstr(r.out, "2 of 2 moments"));
+    assert_non_null(strstr(r.err, "the sun is below the horizon at 1 of 2 moments"));
+    assert_null(strstr(r.out, "interval not valid"));
+    program_free(&r);
+}
+
 TEST(daylight_factors_are_of_a_place_and_no_time)
 {
     run("daylight", NULL, "factor", "--factor");
@@ -295,6 +307,7 @@ int main(void)
         cmocka_unit_test(only_electric_light_wants_cleaning),
         cmocka_unit_test(grids_and_views_say_where_and_when_they_are_of),
         cmocka_unit_test(each_part_of_a_series_says_its_own_time),
+        cmocka_unit_test(a_night_in_a_series_leaves_nothing_to_chance),
         cmocka_unit_test(daylight_factors_are_of_a_place_and_no_time),
         cmocka_unit_test(what_is_not_known_is_not_said),
     };

@@ -1,20 +1,12 @@
-/* tests/cli/test_widths.c -- one, four or eight lanes: the same files, to the byte.
- *
- * Compares the programs of the widths that are built; those older than a source are no builds of
- * it, and are left out.
- */
-#define _GNU_SOURCE
+/* tests/cli/test_widths.c -- one, four or eight lanes: the same files, to the byte. */
 #include "tests/box_gltf.h"
 #include "tests/folder.h"
 #include "tests/lab_picture.h"
 #include "tests/program.h"
 #include "tests/test.h"
+#include "tests/widths.h"
 
-#include <ftw.h>
 #include <stdio.h>
-#include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 static const char room[] =
     "lux4: 1\nroom: {size: [4, 3, 2.5], reflectance: {ceiling: 0.8, walls: [0.6, 0.5, 0.4], "
@@ -45,46 +37,16 @@ static const char lamps[] =
 #define IES(size)                                                                                  \
     "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 4 1 1 2 " size "\n1 1 10\n0 45 90 180\n0\n100 80 30 10\n"
 
-static struct timespec newest; /* source */
-
-static int look_at(const char *path, const struct stat *st, int kind, struct FTW *ftw)
-{
-    const char *end = strrchr(path, '.');
-    (void)ftw;
-    if (kind == FTW_F && end && (!strcmp(end, ".c") || !strcmp(end, ".h") || !strcmp(end, ".cpp")))
-        if (st->st_mtim.tv_sec > newest.tv_sec)
-            newest = st->st_mtim;
-    return 0;
-}
-
-/* A program of that width that can be run here and is none of yesterday. */
-static bool is_usable(const char *program, int width)
-{
-    static const char *const layers[] = { "core", "materials", "lights", "sky", "sim" };
-    char folder[4096];
-    for (int i = 0; i < 5; i++) {
-        snprintf(folder, sizeof folder, "%s/%s", project_root(), layers[i]);
-        nftw(folder, look_at, 16, FTW_PHYS);
-    }
-    struct stat st;
-#ifdef __x86_64__
-    if (width == 8 && !(__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")))
-        return false;
-#endif
-    return stat(program, &st) == 0 && st.st_mtim.tv_sec >= newest.tv_sec;
-}
-
 /* Runs the study by each program, with results in FOLDER/WIDTH; the widths that were run. */
 static int run_each(const char *folder, const char *command, const char *path, const char *accuracy,
                     int widths[3])
 {
     int count = 0;
-    for (int width = 1; width <= 8; width = width == 1 ? 4 : 2 * width) {
+    for (int width = 1; width; width = width_after(width)) {
         char program[4096], name[16];
-        snprintf(program, sizeof program, "%s/build/release-%d/lux4", project_root(), width);
-        snprintf(name, sizeof name, "%d", width);
-        if (!is_usable(program, width))
+        if (!program_of_width(width, program, sizeof program))
             continue;
+        snprintf(name, sizeof name, "%d", width);
         program_result r = { 0 };
         program_expect(0,
                        &(program_desc){ .program = program,
@@ -141,11 +103,9 @@ TEST(the_office_is_the_same_at_every_width)
 }
 
 /* Runs grid and view of study.yaml with one and two threads, plain and layered, by one program. */
-static void run_threads(const char *folder, int width)
+static void run_threads(const char *folder, const char *program, int width)
 {
     static const char *const options[] = { "--quiet", "--groups" };
-    char program[4096];
-    snprintf(program, sizeof program, "%s/build/release-%d/lux4", project_root(), width);
     for (int i = 0; i < 8; i++) {
         program_result r    = { 0 };
         const char *threads = i & 1 ? "2" : "1", *command = i & 4 ? "render" : "grid";
@@ -167,12 +127,11 @@ static void assert_same_everywhere(const char *folder, const char *const *names,
 {
     char one[64], other[64];
     int first = 0; /* width */
-    for (int width = 1; width <= 8; width = width == 1 ? 4 : 2 * width) {
+    for (int width = 1; width; width = width_after(width)) {
         char program[4096];
-        snprintf(program, sizeof program, "%s/build/release-%d/lux4", project_root(), width);
-        if (!is_usable(program, width))
+        if (!program_of_width(width, program, sizeof program))
             continue;
-        run_threads(folder, width);
+        run_threads(folder, program, width);
         first = first ? first : width;
         for (int i = 0; i < 4; i++)
             for (int n = 0; n < count; n++) {

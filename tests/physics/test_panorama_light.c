@@ -2,10 +2,11 @@
  * ones with a sun of one pixel, and ones that show a sky of CIE S 011.
  *
  * Integrals over pixels are in double. Tolerance: the larger of the accuracy asked for and the
- * interval of 99.9 %, at every sensor: a firefly would be off by more.
+ * interval of 99.9 %, at every sensor and pixel: a firefly would be off by more.
  */
 #include "core/color.h"
 #include "core/image.h"
+#include "sim/render.h"
 #include "tests/gltf_text.h"
 #include "tests/lab.h"
 #include "tests/test.h"
@@ -160,6 +161,52 @@ TEST(a_sun_of_one_pixel_gives_its_energy_where_it_stays_in_the_picture)
         sun_of_one_pixel(places[i][0], places[i][1], false);
 }
 
+/* Pixels that look at the floor: each is rho E / pi. */
+static void pixels_under(int column, int row, bool split)
+{
+    const quad floor = {
+        { { -4e3, -4e3, 0 }, { 4e3, -4e3, 0 }, { 4e3, 4e3, 0 }, { -4e3, 4e3, 0 } }
+    };
+    const double accuracy = 0.02;
+    lab l;
+    lab_open(&l);
+    sun_picture(&l, column, row);
+    lab_quads(&l, "floor.gltf", &floor, 1, "\"name\":\"Floor\"");
+    const scene *s =
+        lab_scene(&l, text_of(&l.a,
+                              "lux4: 1\nscene: floor.gltf\n"
+                              "materials: [{match: Floor, reflectance: %g}]\n"
+                              "sky: {model: panorama, file: sky.exr, scale: 1%s}\n"
+                              "views: [{name: down, eye: [0, -3, 5], target: [0, 0, 0],"
+                              " fov: 40, size: [16, 12]}]\n",
+                              rho, split ? "" : ", sun: off"));
+    run_options o = { .accuracy = accuracy, .deadline = HUGE_VAL, .seed = 1, .threads = 1 };
+    lux_error err = { 0 };
+    view_result r;
+    if (!view_run(&l.a, s, &s->study->views[0], &o, &r, &err))
+        fail_msg("%s", err.text);
+    double sun  = pixel_gives(column, row, (dvec3){ 0, 0, 1 }) * (bright - rest);
+    double want = rho / M_PI * (M_PI * rest + sun) * LUMENS_PER_WATT;
+    for (int i = 0; i < r.width * r.height; i++) {
+        double got = (double)r.radiance[1][i] * LUMENS_PER_WATT;
+        double most =
+            fmax(4.0728 / 2.1314 * (double)r.half_width[i], accuracy * want) + 3e-3 * want;
+        if (!(fabs(got - want) <= most))
+            fail_msg("sun in column %d, row %d, pixel %d: %.6g cd/m^2 +- %.2g, not %.6g", column,
+                     row, i, got, (double)r.half_width[i], want);
+    }
+    lab_close(&l);
+}
+
+TEST(no_pixel_of_a_view_is_a_firefly)
+{
+    for (int i = 0; i < PLACES; i++)
+        if (places[i][1] < HIGH / 2) {
+            pixels_under(places[i][0], places[i][1], true);
+            pixels_under(places[i][0], places[i][1], false);
+        }
+}
+
 /* ---- a picture of a sky ---------------------------------------------------------------------- */
 
 /* The skies of a study, ground among them, at the middles of pixels. */
@@ -244,6 +291,7 @@ int main(void)
         cmocka_unit_test(an_even_panorama_gives_pi_l_at_every_tilt),
         cmocka_unit_test(a_sun_of_one_pixel_gives_its_energy_as_a_lamp),
         cmocka_unit_test(a_sun_of_one_pixel_gives_its_energy_where_it_stays_in_the_picture),
+        cmocka_unit_test(no_pixel_of_a_view_is_a_firefly),
         cmocka_unit_test(a_picture_of_a_sky_gives_what_the_sky_gives_in_the_open),
         cmocka_unit_test(a_picture_of_a_sky_gives_what_the_sky_gives_behind_a_window),
     };

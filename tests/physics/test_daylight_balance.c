@@ -9,7 +9,8 @@
  *
  * F has a closed form: of the sun E_n cos(a) A_w, of a uniform sky pi L / 2 A_w on the upright
  * window, of black ground nothing. Sensors stand in the middle of cells of 0.25 m; they are off by
- * 20 % each at most, which a thousand of them even out, and by the midpoint rule near edges: 0.75 % in all.
+ * 20 % each at most, which a thousand of them even out, and by the midpoint rule near edges: 0.75 %
+ * in all.
  */
 #include "tests/gltf_text.h"
 #include "tests/lab.h"

@@ -72,7 +72,7 @@ TEST(the_panorama_in_the_repository_is_that_which_the_program_makes)
     assert_int_equal(im.height, 256);
     assert_true(sky_panorama_picture(&memory, scene_of_variant("noon"), 512, rgb, &err));
     for (int c = 0; c < 3; c++) {
-        assert_memory_equal(im.channels[c].name, "BGR" + c, 1); /* as files have them */
+        assert_memory_equal(im.channels[c].name, &"BGR"[c], 1); /* as files have them */
         for (int i = 0; i < 512 * 256; i++)
             assert_near(im.channels[c].values[i], rgb[2 - c][i], 1e-5);
     }

@@ -99,6 +99,13 @@ static vrgb given_back(const path_tracer *t, patch_generation which, const patch
     return which == PATCH_FIRST ? f : vscale(f, 1.0f / cosine);
 }
 
+/* The light of a point that may be drawn by several portals, one behind the other, counts by the
+ * balance heuristic. Where rounding has put it beside the portal, it is left to the paths. */
+static vfloat by_portal(const patch_point *y, vfloat square)
+{
+    return vkeep(square > 0.0f, y->part / square);
+}
+
 /* How much of a point's light counts, and what it stands for: `pdf` is that of x toward it, `back`
  * its cosine toward x, `on` the density with which a path would go on from z to y. */
 static vfloat count_first(const path_tracer *t, int k, int sun, const patch_point *y, vfloat pdf,
@@ -122,7 +129,7 @@ static vfloat count_first(const path_tracer *t, int k, int sun, const patch_poin
         other         = far / square * onto_z / onto;
     }
     vfloat share = 1.0f / (1.0f + squared(own) + vkeep(second, squared(other)));
-    return share * y->area * back / (to_sun * distance2);
+    return share * by_portal(y, square) * y->area * back / (to_sun * distance2);
 }
 
 static vfloat count_second(const path_tracer *t, int k, int sun, const patch_point *z, vfloat pdf,
@@ -131,14 +138,14 @@ static vfloat count_second(const path_tracer *t, int k, int sun, const patch_poi
     const vvec3 *x = &t->at[k].position;
     vfloat to_z    = pdf * back / distance2;
     vfloat to_y    = on * z->patch_thin;
-    vfloat from_x =
-        sun_patch_density(t->patches, sun, x, &z->patch, &z->to_sun, active) * z->patch_cos;
+    vfloat square  = sun_patch_density(t->patches, sun, x, &z->patch, &z->to_sun, active);
+    vfloat from_x  = square * z->patch_cos;
     vfloat from_z =
         sun_patch_density(t->patches, sun, &z->at.position, &z->patch, &z->to_sun, active) *
         z->patch_cos;
     vfloat this  = from_x * z->drawn;
     vfloat share = 1.0f / (1.0f + squared(to_z * to_y / this) + squared(to_z * from_z / this));
-    return share * z->area * back / distance2;
+    return share * by_portal(z, square) * z->area * back / distance2;
 }
 
 /* Of several suns each is asked at one place of four, and counts as often more: but for patches

@@ -67,6 +67,7 @@ vmask sun_patch_draw(const sun_patches *w, patch_generation which, int sun, vint
         };
     }
     out->area = vgather(w->facing, pair) * vto_float(kept) * (1.0f / (float)w->cast) / chance;
+    out->part = chance / vgather(w->lit, pair);
     if (which == PATCH_SECOND) {
         out->patch  = load_row(l, at, PATCH_ROW, &none);
         out->to_sun = load_row(l, at, SUN_ROW, &none);

@@ -46,6 +46,8 @@ typedef struct patch_point {
                      e. Else what arrives: e, W/m^2; of z, pi f(y) e */
     vhit hit;     /* where not all are matt; without its distance */
     vfloat area;  /* m^2, square to w: what the point stands for, by the chance of its draw */
+    vfloat part;  /* 1/m^2: what of sun_patch_density() is by the portal that it was drawn by; where
+                     others lie behind or before that, all of them have points of the same light */
 
     /* Of z alone */
     vvec3 patch;       /* m: y */

@@ -198,6 +198,24 @@ static void fly(const sun_patches *w, batch *b, int n, ray_hint hint)
     }
 }
 
+/* What of the light of packets of patches arrives where it has landed, through panes. What bends on
+ * its way through solids is left to paths, as path_patch.c does. */
+static void dim(const scene *s, batch *b, int n)
+{
+    for (int k = 0; k < n; k++) {
+        vvec3 on = b->rays[k].direction;
+        vsurface z;
+        world_surface(s->world, &b->hit[k], b->landed[k], &z);
+        vvec3 way  = vsub(z.position, b->patch[k].position);
+        b->rays[k] = direct_shadow_ray(&b->patch[k], &on, vlength(way));
+    }
+    shadow_trace(s, b->rays, b->landed, b->nobody, n, RAYS_INCOHERENT, b->blocked, b->passed);
+    for (int k = 0; k < n; k++) {
+        b->landed[k] = b->landed[k] & ~b->blocked[k] & ~b->passed[k].solids;
+        b->e[k]      = vmul(b->e[k], b->passed[k].share);
+    }
+}
+
 static void follow(lot *l, batch *b, int from)
 {
     const scene *s = l->w->s;
@@ -216,6 +234,8 @@ static void follow(lot *l, batch *b, int from)
     for (int k = 0; k < n; k++)
         keep_patch(l, b, k, from + k * LANES);
     fly(l->w, b, n, RAYS_INCOHERENT);
+    if (s->hollow)
+        dim(s, b, n);
     for (int k = 0; k < n; k++)
         keep_second(l, b, k);
 }

@@ -144,6 +144,73 @@ TEST(each_moment_of_a_series_is_what_it_is_alone)
     lab_close(&l);
 }
 
+/* ---- more than one thing in the way ---------------------------------------------------------- */
+
+static quad across(double y, double x0, double x1, double z0, double z1)
+{
+    return (quad){ { { x0, y, z0 }, { x1, y, z0 }, { x1, y, z1 }, { x0, y, z1 } } };
+}
+
+/* Before the hole a porch of 1.5 m, as wide as it, with a surface of nothing over its far end: of
+ * `portals` one or both, which lie one behind the other. */
+TEST(portals_one_behind_the_other_let_the_sun_in_once)
+{
+    static const char yaml[] =
+        "scene: [box.gltf, porch.gltf, {file: air.gltf, portals: Air}, {file: far.gltf%s}]\n"
+        "materials: [{match: Box, reflectance: 0.5}]\n" SUN_ALONE("185", "25", "disk") "0}\n";
+    quad side[6], porch[4], far = across(-1.5, 1, 3, 1, 2.2);
+    int count = 0;
+    grid_result one, both;
+    lab l;
+    lab_open(&l);
+    write_box(&l);
+    quads_of_box((dvec3){ 1, -1.5, 1 }, (dvec3){ 3, 0, 2.2 }, side);
+    for (int i = 0; i < 6; i++) {
+        bool level = true;
+        for (int k = 1; k < 4; k++)
+            level = level && side[i].corner[k].y == side[i].corner[0].y;
+        if (!level)
+            porch[count++] = side[i];
+    }
+    lab_quads(&l, "porch.gltf", porch, count, "\"name\":\"Box\"");
+    lab_quads(&l, "far.gltf", &far, 1,
+              "\"name\":\"Air\",\"alphaMode\":\"BLEND\",\"pbrMetallicRoughness\":{"
+              "\"baseColorFactor\":[1,1,1,0]}");
+    run_options o = { .accuracy = 0.02, .threads = 2 };
+    lab_measure(&l, text_of(&l.a, yaml, ""), NULL, probe, SENSORS, &o, &one);
+    lab_measure(&l, text_of(&l.a, yaml, ", portals: Air"), NULL, probe, SENSORS, &o, &both);
+    grid_moment want = light_of(&one), got = light_of(&both);
+    assert_true(one.illuminance[1] > 1.0);
+    assert_agree("one portal and two", &got, &want, SENSORS);
+    lab_close(&l);
+}
+
+/* A sheet that lets a twentieth through, between the patch and the rear of the room: what the patch
+ * lights there is a twentieth as bright, whether a sun or a lamp of the same light makes the patch.
+ */
+TEST(light_of_a_patch_is_dimmed_by_what_stands_in_the_room)
+{
+    static const char scene_of[] = "scene: [box.gltf, {file: air.gltf, portals: Air}, sheet.gltf]\n"
+                                   "materials: [{match: Box, reflectance: 0.5}]\n";
+    static const char lamp[] =
+        "lights: [{type: parallel, aim: [0, 0.76604444, -0.64278761], illuminance: 50000}]\n";
+    quad sheet = across(3.2, 0, 4, 0, 3);
+    grid_result sun, by_lamp;
+    lab l;
+    lab_open(&l);
+    write_box(&l);
+    lab_quads(&l, "sheet.gltf", &sheet, 1,
+              "\"name\":\"Sheet\",\"alphaMode\":\"BLEND\",\"pbrMetallicRoughness\":{"
+              "\"baseColorFactor\":[0.2,0.2,0.2,0.95]}");
+    run_options o = { .accuracy = 0.04, .threads = 2 };
+    lab_measure(&l, text_of(&l.a, "%s%s", scene_of, SUN_ALONE("180", "40", "point") "0}\n"), NULL,
+                probe, SENSORS, &o, &sun);
+    lab_measure(&l, text_of(&l.a, "%s%s", scene_of, lamp), NULL, probe, SENSORS, &o, &by_lamp);
+    grid_moment want = light_of(&by_lamp), got = light_of(&sun);
+    assert_agree("sun and lamp", &got, &want, SENSORS);
+    lab_close(&l);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -153,6 +220,8 @@ int main(void)
         cmocka_unit_test(a_point_and_a_disk_of_a_sun_give_the_same_far_from_shadow_edges),
         cmocka_unit_test(sun_sky_and_lamps_add_up_to_all),
         cmocka_unit_test(each_moment_of_a_series_is_what_it_is_alone),
+        cmocka_unit_test(portals_one_behind_the_other_let_the_sun_in_once),
+        cmocka_unit_test(light_of_a_patch_is_dimmed_by_what_stands_in_the_room),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

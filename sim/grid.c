@@ -179,12 +179,21 @@ static void take_layers(const grid_run_state *g, const accuracy_result *got, siz
     }
 }
 
+/* By way of surfaces no light was found; of a series, at no moment: those of the night are dark. */
+static bool found_nothing(const grid_run_state *g, const accuracy_result *got, size_t k)
+{
+    bool nothing = mean_of(g, got, SAMPLED, k) == 0.0;
+    for (int h = 1; h < g->moments && nothing; h++)
+        nothing = mean_of(g, got, h, k) == 0.0;
+    return nothing;
+}
+
 static void take_results(const grid_run_state *g, const accuracy_result *got, grid_result *r)
 {
     const grid_channels *c = &g->channels;
     for (size_t k = 0; k < (size_t)r->sensor_count; k++) {
         double all = mean_of(g, got, SAMPLED, k);
-        r->in_doubt += got && all == 0.0 && mean_of(g, got, c->met, k) > 0.0;
+        r->in_doubt += got && found_nothing(g, got, k) && mean_of(g, got, c->met, k) > 0.0;
         if (g->moments) {
             take_moments(g, got, k);
         } else {

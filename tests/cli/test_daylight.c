@@ -379,6 +379,7 @@ TEST(what_makes_no_sense_is_refused)
                       "grids: [{name: out, points: out.csv}, {name: out-sun, points: out.csv}]\n");
 #define WRONG(says, ...) LUX4_FAILS(folder, 2, says, "daylight", __VA_ARGS__)
     WRONG("--date: expected a date", "wrong.yaml", "--date", "2026-06-21T10:00");
+    WRONG("or two as 2026-06-21..2026-06-30", "wrong.yaml", "--date", "2026-06-21-2026-06-30");
     WRONG("2026-02-30", "wrong.yaml", "--date", "2026-02-30");
     WRONG("expected the earlier date first", "wrong.yaml", "--date", "2026-06-22..2026-06-21");
     WRONG("--from: expected a time from 00:00 to 23:59", "wrong.yaml", "--from", "24:00");

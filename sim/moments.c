@@ -20,12 +20,17 @@ static bool read_date(const char *text, size_t length, const char *what, civil_t
     clock_text is = { 0 };
     lux_error why = { 0 };
     int shown     = (int)(length < 40 ? length : 40);
-    if (length >= sizeof copy)
-        return failed(err, ERR_FORMAT, "%s: expected a date as 2026-06-21, found `%.*s`", what,
-                      shown, text);
-    memcpy(copy, text, length);
-    if (!clock_read(&is, copy, &why))
+    bool fits     = length < sizeof copy;
+    if (fits)
+        memcpy(copy, text, length);
+    bool reads = fits && clock_read(&is, copy, &why);
+    if (!reads && length == strlen("2026-06-21"))
         return failed(err, why.code, "%s: %s", what, why.text);
+    if (!reads)
+        return failed(err, ERR_FORMAT,
+                      "%s: expected a date as 2026-06-21, or two as 2026-06-21..2026-06-30, "
+                      "found `%.*s`",
+                      what, shown, text);
     if (is.has_time)
         return failed(err, ERR_FORMAT, "%s: expected a date without a time, found `%s`", what,
                       copy);

@@ -233,6 +233,20 @@ TEST(before_sunrise_it_is_dark_and_that_is_said)
     assert_non_null(strstr(r.out, "2026-12-21T07:00+03:00"));
 }
 
+/* Nobody finds light by night: that says nothing of the samples of the day. */
+TEST(an_interval_stays_valid_where_a_series_begins_by_night)
+{
+    folder_write(folder, "in.csv", "x,y,z,nx,ny,nz\n2,2,1,0,0,1\n");
+    folder_write(folder, "early.yaml",
+                 "lux4: 1\nroom: {size: [4, 4, 3], reflectance: 0.5, windows: "
+                 "[{wall: south, at: [1, 1], size: [2, 1]}]}\n" MOSCOW
+                 "grids: [{name: in, points: in.csv}]\nsky: {model: clear}\n"
+                 "when: {date: 2026-12-21, from: \"07:00\", to: \"11:00\", step: 240}\n");
+    LUX4(folder, 0, &r, "daylight", "early.yaml", "--accuracy", "50%", "-o", "early");
+    assert_non_null(strstr(r.err, "below the horizon at 1 of 2 moments"));
+    assert_null(strstr(r.out, "not valid"));
+}
+
 static int moments_on(const char *date)
 {
     LUX4(folder, 0, &r, "daylight", "clock.yaml", "--date", date, "-o", "clock", "--overwrite",
@@ -365,6 +379,7 @@ TEST(what_makes_no_sense_is_refused)
                       "grids: [{name: out, points: out.csv}, {name: out-sun, points: out.csv}]\n");
 #define WRONG(says, ...) LUX4_FAILS(folder, 2, says, "daylight", __VA_ARGS__)
     WRONG("--date: expected a date", "wrong.yaml", "--date", "2026-06-21T10:00");
+    WRONG("or two as 2026-06-21..2026-06-30", "wrong.yaml", "--date", "2026-06-21-2026-06-30");
     WRONG("2026-02-30", "wrong.yaml", "--date", "2026-02-30");
     WRONG("expected the earlier date first", "wrong.yaml", "--date", "2026-06-22..2026-06-21");
     WRONG("--from: expected a time from 00:00 to 23:59", "wrong.yaml", "--from", "24:00");
@@ -397,6 +412,7 @@ int main(void)
         cmocka_unit_test(the_daylight_factor_as_json_has_its_parts),
         cmocka_unit_test(outside_there_is_the_sky_and_the_sun_by_its_sine),
         cmocka_unit_test(before_sunrise_it_is_dark_and_that_is_said),
+        cmocka_unit_test(an_interval_stays_valid_where_a_series_begins_by_night),
         cmocka_unit_test(
             an_hour_that_clocks_skip_is_left_out_and_one_they_show_twice_is_there_twice),
         cmocka_unit_test(more_moments_than_a_batch_holds_are_all_there_in_their_order),

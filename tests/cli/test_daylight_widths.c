@@ -34,7 +34,7 @@ static int end(void **state)
     "dimming: 0.5}]\nmaintenance: 0.8\n"                                                           \
     "grids:\n  - {name: g, on: room, height: 0.75, spacing: 1.1}\n"                                \
     "  - {name: c, on: room, height: 1.2, spacing: 2.5, quantity: cylindrical}\n"                  \
-    "views: [{name: v, eye: [3.5, 4.5, 1.6], target: [1, 0, 1.4], fov: 80, size: [17, 13]}]\n"
+    "views: [{name: v, eye: [3.5, 4.5, 1.6], target: [1, 0, 1.4], fov: 80, size: [9, 7]}]\n"
 #define BERLIN "site: {place: 52.5N 13.4E, zone: Europe/Berlin, north: 25}\n"
 #define DAY    "when: {date: 2026-03-21, from: \"09:00\", to: \"15:00\", step: 120}\n"
 
@@ -83,9 +83,9 @@ static void write_study(const char *text) { folder_write(folder, "study.yaml", t
 TEST(grids_of_a_sunny_room_are_the_same_in_groups_and_whole)
 {
     write_study(ROOM BERLIN "when: 2026-03-21T14:00\nsky: {model: clear, ground: 0.3}\n");
-    assert_same_everywhere((const char *const[4]){ "grid", "10%" },
+    assert_same_everywhere((const char *const[4]){ "grid", "30%" },
                            (const char *const[]){ GRIDS, NULL });
-    assert_same_everywhere((const char *const[4]){ "grid", "20%", "--groups" },
+    assert_same_everywhere((const char *const[4]){ "grid", "50%", "--groups" },
                            (const char *const[]){ GRIDS, NULL });
 }
 
@@ -93,25 +93,25 @@ TEST(pictures_that_show_the_sky_are_the_same)
 {
     static const char *const names[] = { "v.exr", "v.png", NULL };
     write_study(ROOM BERLIN "when: 2026-03-21T14:00\nsky: {model: clear, ground: 0.3}\n");
-    assert_same_everywhere((const char *const[4]){ "render", "60%" }, names);
-    assert_same_everywhere((const char *const[4]){ "render", "80%", "--groups" }, names);
+    assert_same_everywhere((const char *const[4]){ "render", "100%" }, names);
+    assert_same_everywhere((const char *const[4]){ "render", "100%", "--groups" }, names);
 }
 
 TEST(a_day_of_four_hours_is_the_same)
 {
     static const char *const names[] = { "g.csv", "g.exr", "g.svg", "g-sun.csv", "c.csv", NULL };
     write_study(ROOM BERLIN DAY "sky: {model: clear, turbidity: 4}\n");
-    assert_same_everywhere((const char *const[4]){ "daylight", "15%" }, names);
+    assert_same_everywhere((const char *const[4]){ "daylight", "40%" }, names);
     write_study(ROOM BERLIN DAY
                 "sky: {perez: {direct_normal: 500, diffuse_horizontal: 150}, sun: point}\n");
-    assert_same_everywhere((const char *const[4]){ "daylight", "20%" }, names);
+    assert_same_everywhere((const char *const[4]){ "daylight", "50%" }, names);
 }
 
 TEST(daylight_factors_are_the_same)
 {
     static const char *const names[] = { "g.csv", "g.exr", "g.svg", NULL };
     write_study(ROOM "sky: {model: overcast}\n");
-    assert_same_everywhere((const char *const[4]){ "daylight", "5%", "--factor" }, names);
+    assert_same_everywhere((const char *const[4]){ "daylight", "10%", "--factor" }, names);
 }
 
 /* A picture of a sky with a sun in it, of 64 by 32 pixels. */
@@ -129,8 +129,8 @@ TEST(what_a_panorama_lights_is_the_same)
     image im           = { .width = W, .height = H, .channel_count = 3, .channels = c };
     assert_true(image_write_exr(path_in(folder, "sky.exr"), &im, false, NULL, &err));
     write_study(ROOM "sky: {model: panorama, file: sky.exr, rotate: 33}\n");
-    assert_same_everywhere((const char *const[4]){ "grid", "20%" }, names);
-    assert_same_everywhere((const char *const[4]){ "render", "80%" }, view);
+    assert_same_everywhere((const char *const[4]){ "grid", "50%" }, names);
+    assert_same_everywhere((const char *const[4]){ "render", "100%" }, view);
 }
 
 TEST(pictures_of_skies_are_the_same)

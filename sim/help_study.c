@@ -33,7 +33,7 @@ static const char text[] =
 "sky            light from outside; keys of a model also as {cie: {type: 5}}\n"
 "  model        none, uniform, overcast, intermediate, clear, cie, perez, panorama\n"
 "  type         1 to 15         (!) of cie  of ISO 15469\n"
-"  sun          on, off, disk, point        on for clear, intermediate, cie 7 to 15, perez\n"
+"  sun          on, off, disk, point        on for all but none, uniform, overcast, cie 1 to 6\n"
 "  sun_at       {azimuth: degrees from north, elevation: degrees} in place of when\n"
 "  turbidity    1 to 20         3           Linke's\n"
 "  horizontal   lx              by formula  of the sky alone, on level ground\n"

@@ -1,8 +1,9 @@
 /* sim/path_sun.c -- suns asked where paths stand.
  *
  * Indoors nearly all places see no sun: of several suns, those that would have to come in by no
- * portal are asked now and then only, and count as often more. Where a sunlit patch is met that was
- * asked for where the path was last (path_patch.c), it counts by the power heuristic.
+ * portal are asked now and then only, and count as often more; but where surfaces are outside.
+ * Where a sunlit patch is met that was asked for where the path was last (path_patch.c), it counts
+ * by the power heuristic.
  */
 #include "core/color.h"
 #include "sim/path_parts.h"
@@ -22,7 +23,9 @@ static vmask who_asks(const path_tracer *t, int k, int l, vfloat *count)
         return t->asks[k];
     light_sample(s->lights[l], &at.position, half, half, t->asks[k], &of);
     vmask in = portals_cross(s->portals, &at.position, &of.wi, t->asks[k]);
-    *count   = vselect(in, *count, vsplat((float)SELDOM));
+    if (s->exteriors && t->depth > 0)
+        in = in | ((t->does[k] & DOES_EXTERIOR) != 0);
+    *count = vselect(in, *count, vsplat((float)SELDOM));
     return t->asks[k] & (in | path_in_turn(t, k, l, SELDOM));
 }
 

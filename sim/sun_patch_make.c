@@ -9,7 +9,7 @@
 #include "sim/sun_patch_parts.h"
 
 enum {
-    MOST_PANES  = 8,       /* that sunlight goes through, one behind the other */
+    MOST_PANES  = 64,      /* that sunlight goes through, one behind the other */
     MOST_CAST   = 8192,    /* places, a set, of all portals of a sun; a power of two */
     LEAST_CAST  = 8,       /* of one portal */
     MOST_POINTS = 1 << 20, /* all in all, of each generation */

@@ -28,11 +28,11 @@ static int end(void **state)
 
 #define ROOM                                                                                       \
     "lux4: 1\nroom: {size: [4, 5, 3], reflectance: {ceiling: 0.8, walls: [0.6, 0.5, 0.4], "        \
-    "floor: 0.2}, windows: [{wall: south, at: [0.5, 1], size: [1.2, 1.2], transmittance: 0.8},\n"  \
+    "floor: 0.2}, windows: [{wall: south, at: [0.5, 1], size: [1.2, 1.2]},\n"  \
     "  {wall: west, at: [1, 0.8], size: [2, 1.5]}]}\n"                                             \
     "lights: [{type: rect, at: [2, 2, 2.9], size: [0.6, 1.2], lumens: 1500, group: lamp, "         \
     "dimming: 0.5}]\nmaintenance: 0.8\n"                                                           \
-    "grids:\n  - {name: g, on: room, height: 0.75, spacing: 1.1}\n"                                \
+    "grids:\n  - {name: g, on: room, height: 0.75, spacing: 1.8}\n"                                \
     "  - {name: c, on: room, height: 1.2, spacing: 2.5, quantity: cylindrical}\n"                  \
     "views: [{name: v, eye: [3.5, 4.5, 1.6], target: [1, 0, 1.4], fov: 80, size: [9, 7]}]\n"
 #define BERLIN "site: {place: 52.5N 13.4E, zone: Europe/Berlin, north: 25}\n"

@@ -133,7 +133,7 @@ typedef struct scene {
     int portal_count;
     const portal *portal_list;
     const char *portals_from; /* "2 room windows"; NULL: there are none */
-    bool exteriors; /* some surface is outside */
+    bool exteriors;           /* some surface is outside */
 
     int group_count; /* of lamps; "other" holds those that are in none */
     const char *const *groups;

@@ -53,8 +53,9 @@ bool sun_at_next(sun_series *series, const site *s, const sun_air *air, double m
                  sun_place *out, lux_error *err);
 
 /* Sunrise and sunset are when the upper limb appears at the level horizon: the centre at a true
- * elevation of -0.8333 degrees (34' of refraction, 16' of the disk), whatever air or altitude. Almanacs mean the elevation from Earth's centre, which is greater
- * by the parallax, 0.0024 degrees: their day is longer by a second or two.
+ * elevation of -0.8333 degrees (34' of refraction, 16' of the disk), whatever air or altitude.
+ * Almanacs mean the elevation from Earth's centre, which is greater by the parallax, 0.0024
+ * degrees: their day is longer by a second or two.
  *
  * A date may have two of either (near polar day, or where clocks are far from the sun): sunrise is
  * then the first, sunset the last. A sunset may come before the sunrise of the same date, where the

@@ -28,7 +28,7 @@ static int end(void **state)
 
 #define ROOM                                                                                       \
     "lux4: 1\nroom: {size: [4, 5, 3], reflectance: {ceiling: 0.8, walls: [0.6, 0.5, 0.4], "        \
-    "floor: 0.2}, windows: [{wall: south, at: [0.5, 1], size: [1.2, 1.2]},\n"  \
+    "floor: 0.2}, windows: [{wall: south, at: [0.5, 1], size: [1.2, 1.2]},\n"                      \
     "  {wall: west, at: [1, 0.8], size: [2, 1.5]}]}\n"                                             \
     "lights: [{type: rect, at: [2, 2, 2.9], size: [0.6, 1.2], lumens: 1500, group: lamp, "         \
     "dimming: 0.5}]\nmaintenance: 0.8\n"                                                           \

@@ -2,8 +2,8 @@
 #include "sky/dome.h"
 
 #include "core/sampler.h"
-#include "tests/one_lane_sky.h"
 #include "tests/drawn_sky.h"
+#include "tests/one_lane_sky.h"
 #include "tests/test.h"
 
 #include <stdlib.h>

@@ -2,8 +2,8 @@
 #include "sky/portal.h"
 
 #include "core/sampler.h"
-#include "tests/one_lane_sky.h"
 #include "tests/drawn_sky.h"
+#include "tests/one_lane_sky.h"
 #include "tests/test.h"
 
 enum { COLUMNS = 64, ROWS = 32 };

@@ -4,6 +4,7 @@
 #include "sim/moment_sky.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* ---- figures --------------------------------------------------------------------------------- */
@@ -69,6 +70,21 @@ static bool make_scene(daylight *d, int batch, lux_error *err)
     return d->scene != NULL;
 }
 
+/* "55.7558 N, 37.6173 E; Europe/Moscow; sky: clear". */
+static void say_where(const study *s, char *text, size_t size)
+{
+    const study_site *in = &s->site;
+    int length           = 0;
+    text[0]              = '\0';
+    if (in->given)
+        length =
+            snprintf(text, size, "%.4f %c, %.4f %c; %.40s; ", fabs(in->at.latitude_deg),
+                     in->at.latitude_deg < 0.0 ? 'S' : 'N', fabs(in->at.longitude_deg),
+                     in->at.longitude_deg < 0.0 ? 'W' : 'E', in->zone_name ? in->zone_name : "UTC");
+    if (s->sky.given && length >= 0 && (size_t)length < size)
+        snprintf(text + length, size - (size_t)length, "sky: %.30s", s->sky.name);
+}
+
 static bool make_series(daylight *d, int i, double step_h, lux_error *err)
 {
     daylight_series *s = &d->series[i];
@@ -77,6 +93,7 @@ static bool make_series(daylight *d, int i, double step_h, lux_error *err)
                                             .wanted    = d->moment_count,
                                             .north_deg = d->study->site.north_deg,
                                             .step_h    = step_h };
+    say_where(d->study, s->under, sizeof s->under);
     if (!grid_sensors(d->a, d->scene, &d->study->grids[i], &s->plan, err))
         return false;
     s->light = arena_array(d->a, grid_moment, count, err);

@@ -28,6 +28,7 @@ typedef struct daylight_series {
     grid_moment *light;    /* of each of the first `count` */
     daylight_figures *of;  /* the same */
     double north_deg;      /* where true north lies, clockwise from +y */
+    char under[160];       /* where and under which sky, for people; "" if it is not known */
     double step_h;         /* of the series; NAN: a single time a day, which has no length */
     double *sun_hours;     /* h, a sensor: step * grid_moment.sun, over all moments, by date: the
                               mean of a day. NULL: no step, or nothing looked for the sun */

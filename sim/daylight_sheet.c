@@ -247,8 +247,9 @@ static void draw_header(const sheet *d)
     if (d->at.every > 1)
         snprintf(left_out, sizeof left_out, "; one %s of %d is drawn",
                  d->at.by_date || s->dates > 1 ? "date" : "time", d->at.every);
-    sheet_write(d->out, &line, "%s, %d sensor%s%s%s", grid_quantity_name(s->plan.grid->quantity),
-                s->plan.sensor_count, s->plan.sensor_count > 1 ? "s" : "", left_out,
+    sheet_write(d->out, &line, "%s, %d sensor%s%s%s%s%s",
+                grid_quantity_name(s->plan.grid->quantity), s->plan.sensor_count,
+                s->plan.sensor_count > 1 ? "s" : "", s->under[0] ? "; " : "", s->under, left_out,
                 s->end == RUN_INTERRUPTED ? "; partial: interrupted" : "");
     double room = PAGE_WIDTH - 2.0 * MARGIN;
     sheet_legend(d->out, MARGIN + 8.0, 80.0, 0.5 * room, &d->light, "lx");

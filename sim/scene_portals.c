@@ -363,5 +363,9 @@ bool scene_find_portals(scene_build *b, scene *s)
     portal_work w = { .b = b, .s = s, .scratch = &scratch };
     bool good     = find(&w, s);
     arena_clear(&scratch);
+    const study_room *room = &b->study->room;
+    if (room->given && room->window_count == 0)
+        notice_add(b->notices, "%s:%d:%d: the room has no `windows`: no daylight comes into it",
+                   b->study->path, room->where.line, room->where.column);
     return good && (s->sky_count == 0 || make_samplers(b, s));
 }

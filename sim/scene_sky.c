@@ -101,6 +101,9 @@ static bool add_moment(scene_build *b, const moment *m, day_groups in, int *nigh
     return add_sun(b, &d, in.sun) && add_ground(b, v3_scale(square, m->to_sun.z), in.sun);
 }
 
+/* lx: a panorama that gives less was likely not meant to be W/(sr m^2). */
+static const double least_day = 1000.0;
+
 /* The picture shows what is below the horizon, too. */
 static const sky *read_panorama(scene_build *b, panorama_sun *sun)
 {
@@ -112,8 +115,16 @@ static const sky *read_panorama(scene_build *b, panorama_sun *sun)
                            .keep_sun   = !study_has_sun(b->study) };
     lux_error why      = { 0 };
     const sky *read    = sky_panorama(b->a, &d, sun, b->notices, &why);
-    if (!read)
+    if (!read) {
         pass_on(b, &why);
+        return NULL;
+    }
+    double lux = LUMENS_PER_WATT * (double)rgb_luminance(read->horizontal);
+    if (isnan(k->scale) && isnan(k->horizontal) && lux < least_day)
+        notice_add(b->notices,
+                   "%s: its pixels, taken as W/(sr m2), give %.3g lx on level ground besides any "
+                   "sun: `scale` or `horizontal` makes daylight of it",
+                   k->file, lux);
     return read;
 }
 

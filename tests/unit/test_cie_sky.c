@@ -222,7 +222,7 @@ TEST(what_makes_no_sense_is_refused)
     for (int type = 12; type <= 16; type += 4) {
         d            = good;
         d.type       = type;
-        d.horizontal = NAN;
+        d.horizontal = (double)NAN;
         assert_null(sky_cie(&a, &d, &err));
         d.horizontal = -1;
         assert_null(sky_cie(&a, &d, &err));

@@ -73,7 +73,8 @@ TEST(all_are_continuous_and_zero_below_the_horizon)
         }
     assert_true(sky_sun_lx(0, 0, 3, 1) == 0 && sky_sun_lx(-5, 0, 3, 1) == 0);
     assert_true(sky_diffuse_lx(12, 0, 0, 3) == 0 && sky_diffuse_lx(16, -0.1, 0, 3) == 0);
-    assert_true(sky_sun_lx(NAN, 0, 3, 1) == 0 && sky_diffuse_lx(12, 30, 0, NAN) == 0);
+    assert_true(sky_sun_lx((double)NAN, 0, 3, 1) == 0 &&
+                sky_diffuse_lx(12, 30, 0, (double)NAN) == 0);
     assert_true(sky_diffuse_lx(12, 30, 0, 21) == 0 && sky_sun_lx(30, 0, 0.9, 1) == 0);
 }
 

@@ -48,7 +48,7 @@ static perez_desc desc_of(double elevation_deg, double direct, double diffuse)
     return (perez_desc){ .to_sun             = angle_twin_sun(elevation_deg),
                          .direct_normal      = direct,
                          .diffuse_horizontal = diffuse,
-                         .dew_point_c        = NAN,
+                         .dew_point_c        = (double)NAN,
                          .distance_au        = 1,
                          .color              = { 1, 1, 1 } };
 }
@@ -245,7 +245,7 @@ TEST(what_makes_no_sense_is_refused)
     d               = good;
     d.direct_normal = -1;
     assert_null(sky_perez(&a, &d, NULL, &err));
-    d.direct_normal = NAN;
+    d.direct_normal = (double)NAN;
     assert_null(sky_perez(&a, &d, NULL, &err));
     d             = good;
     d.distance_au = 0;

@@ -288,7 +288,7 @@ TEST(what_makes_no_sense_is_refused)
     assert_null(light_sun(&a, &d, &err));
     d.irradiance.y = INFINITY;
     assert_null(light_sun(&a, &d, &err));
-    static const double diameters[] = { 0, -1, 61, NAN };
+    static const double diameters[] = { 0, -1, 61, (double)NAN };
     for (int i = 0; i < 4; i++) {
         d              = good;
         d.diameter_deg = diameters[i];

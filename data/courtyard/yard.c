@@ -141,8 +141,9 @@ shape yard_tree(void)
     for (int i = 0; i < 1600; i++) { /* on a spiral about the crown, at all depths */
         const double up = 2.0 * (i + 0.5) / 1600 - 1.0, turn = 2.399963 * i;
         const double out = 1.0 - 0.45 * draw(&seed) * draw(&seed), r = sqrt(1.0 - up * up) * out;
+        const double tilt = 140.0 * draw(&seed) - 70.0, spin = 360.0 * draw(&seed);
         shape_at(&s, (point){ 1.35 * r * cos(turn), 1.35 * r * sin(turn), 3.15 + 1.25 * up * out },
-                 360.0 * draw(&seed), 140.0 * draw(&seed) - 70.0);
+                 spin, tilt);
         add_box(&s, (point){ -0.075, -0.05, -0.003 }, (point){ 0.075, 0.05, 0.003 });
     }
     return s;

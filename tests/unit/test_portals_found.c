@@ -70,7 +70,8 @@ static const scene *house_with(const quad *more, int count, const char *keys)
     quad all[64];
     char text[1000];
     memcpy(all, house, sizeof house);
-    memcpy(all + WALLS, more, (size_t)count * sizeof *more);
+    if (count > 0)
+        memcpy(all + WALLS, more, (size_t)count * sizeof *more);
     quads_gltf_write(folder, "house.gltf", all, WALLS + count, materials, 3);
     snprintf(text, sizeof text, "scene: {file: house.gltf%s}\n" SKY, keys);
     return scene_of(text);

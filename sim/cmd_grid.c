@@ -72,14 +72,7 @@ static void print_table(const scene *s, const grid_result *r, const totals *t)
     int count = grid_requirements(r, asked);
     for (int i = 0; i < count; i++)
         print_requirement(&asked[i]);
-    if (r->left_out)
-        printf("  %d sensor%s left out: inside furniture\n", r->left_out,
-               r->left_out > 1 ? "s" : "");
-    if (r->end != RUN_DONE || r->missed)
-        printf("  accuracy: %d of %d sensors are not within %g %%%s\n", r->missed, r->sensor_count,
-               100.0 * r->asked, r->end == RUN_DONE ? " of all as dimmed (layers are)" : " yet");
-    if (r->left_to_chance)
-        printf("  interval not valid: %s\n", r->left_to_chance);
+    command_grid_remarks(r, r->end, r->missed, r->asked, r->left_to_chance);
 }
 
 /* ---- as JSON --------------------------------------------------------------------------------- */

@@ -36,6 +36,19 @@ run_options command_run_options(const command_context *c, int left)
                           .progress    = c->progress };
 }
 
+void command_grid_remarks(const grid_result *plan, run_end end, int missed, double asked,
+                          const char *left_to_chance)
+{
+    if (plan->left_out)
+        printf("  %d sensor%s left out: inside furniture\n", plan->left_out,
+               plan->left_out > 1 ? "s" : "");
+    if (end != RUN_DONE || missed)
+        printf("  accuracy: %d of %d sensors are not within %g %%%s\n", missed, plan->sensor_count,
+               100.0 * asked, end == RUN_DONE ? " of all as dimmed (layers are)" : " yet");
+    if (left_to_chance)
+        printf("  interval not valid: %s\n", left_to_chance);
+}
+
 int command_end(run_end end, const char *what, const char *name, lux_error *err)
 {
     if (end == RUN_DONE)

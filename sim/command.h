@@ -89,6 +89,10 @@ int command_threads(const command_context *c);
  * --time is shared. */
 run_options command_run_options(const command_context *c, int left);
 
+/* What a table says below a grid of its sensors, of accuracy and of intervals. */
+void command_grid_remarks(const grid_result *plan, run_end end, int missed, double asked,
+                          const char *left_to_chance);
+
 /* The exit code for why a run ended, with *err saying it of `what` ("grid desk"). */
 int command_end(run_end end, const char *what, const char *name, lux_error *err);
 

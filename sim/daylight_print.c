@@ -23,19 +23,6 @@ static sun_range range_of(const daylight_series *s)
 
 /* ---- tables ---------------------------------------------------------------------------------- */
 
-static void print_remarks(const grid_result *plan, run_end end, int missed, double asked,
-                          const char *left_to_chance)
-{
-    if (plan->left_out)
-        printf("  %d sensor%s left out: inside furniture\n", plan->left_out,
-               plan->left_out > 1 ? "s" : "");
-    if (end != RUN_DONE || missed)
-        printf("  accuracy: %d of %d sensors are not within %g %% yet\n", missed,
-               plan->sensor_count, 100.0 * asked);
-    if (left_to_chance)
-        printf("  interval not valid: %s\n", left_to_chance);
-}
-
 static void print_moment(const daylight_series *s, int h)
 {
     const moment *m           = &s->moments[h];
@@ -65,7 +52,7 @@ void daylight_print(const daylight_series *s)
         printf("  direct sun: %.2f h%s on average, %.2f to %.2f h\n", r.average,
                s->dates > 1 ? " a day" : "", r.minimum, r.maximum);
     }
-    print_remarks(&s->plan, s->end, s->missed, s->asked, s->left_to_chance);
+    command_grid_remarks(&s->plan, s->end, s->missed, s->asked, s->left_to_chance);
 }
 
 void daylight_factor_print(const daylight_factor *f, bool first, int name_width)
@@ -82,7 +69,7 @@ void daylight_factor_print(const daylight_factor *f, bool first, int name_width)
            100.0 * r->worst_half_width);
     printf("  of the average: sky %.3f %%, reflected outside %.3f %%, reflected inside %.3f %%\n",
            f->average_sky, f->average_external, f->average_internal);
-    print_remarks(r, r->end, r->missed, r->asked, r->left_to_chance);
+    command_grid_remarks(r, r->end, r->missed, r->asked, r->left_to_chance);
 }
 
 /* ---- JSON ------------------------------------------------------------------------------------ */

@@ -84,7 +84,7 @@ static vrgb given_back(const path_tracer *t, patch_generation which, const patch
 {
     const scene *s = t->s;
     vfloat cosine  = vdot(y->before, y->at.normal);
-    if (!s->narrow && !s->textured && !s->smooth) {
+    if (sun_patches_matt(t->patches)) {
         *pdf = cosine * (1.0f / WARP_PI);
         return vkeep3(active & (vdot(*wi, y->at.normal) < 0.0f), y->light);
     }

@@ -3,6 +3,7 @@
 
 int sun_patch_suns(const sun_patches *w) { return w->sun_count; }
 int sun_patch_sun(const sun_patches *w, int i) { return w->suns[i]; }
+bool sun_patches_matt(const sun_patches *w) { return w->matt; }
 
 /* How often portal j is drawn at x, beside the others. */
 static vfloat weight_of(const sun_patches *w, int sun, int j, const vvec3 *x)

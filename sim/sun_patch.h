@@ -35,6 +35,9 @@ bool sun_patches_new(arena *a, const scene *s, uint32_t seed, double accuracy, i
 int sun_patch_suns(const sun_patches *w);
 int sun_patch_sun(const sun_patches *w, int i);
 
+/* Whether all surfaces of the scene are matt, and points hold what they give back. */
+bool sun_patches_matt(const sun_patches *w);
+
 /* Points of patches, y, one a lane; or points z that such a point lights, in a direction drawn from
  * y as a matt surface sends light. */
 typedef enum patch_generation { PATCH_FIRST, PATCH_SECOND } patch_generation;

@@ -163,6 +163,7 @@ static void keep_second(lot *l, const batch *b, int k)
     vfloat from_y    = vdot(on, y->normal);
     vfloat to_z      = vdot(back, z.normal);
     vfloat to_sun    = vdot(b->to_sun[k], y->normal);
+    vfloat none      = { 0 };
     vrgb radiance    = { 0 };
     met              = met & (distance2 > 0.0f) & (from_y > 0.0f) & (to_z > 0.0f) & (to_sun > 0.0f);
     if (w->matt) {
@@ -177,9 +178,9 @@ static void keep_second(lot *l, const batch *b, int k)
         store_row(&w->second, to, PLACE_ROW, &z.position, drawn, i);
         store_row(&w->second, to, NORMAL_ROW, &z.normal, to_sun, i);
         store_row(&w->second, to, BEFORE_ROW, &back, thin, i);
-        store_row(&w->second, to, LIGHT_ROW, w->matt ? &radiance : &b->e[k], to_z, i);
-        store_row(&w->second, to, PATCH_ROW, &y->position, to_z, i);
-        store_row(&w->second, to, SUN_ROW, &b->to_sun[k], to_z, i);
+        store_row(&w->second, to, LIGHT_ROW, w->matt ? &radiance : &b->e[k], none, i);
+        store_row(&w->second, to, PATCH_ROW, &y->position, none, i);
+        store_row(&w->second, to, SUN_ROW, &b->to_sun[k], none, i);
         store_hit(&w->second, to, &b->hit[k], i);
     }
 }

@@ -1,54 +1,11 @@
 /* tests/unit/test_glints.c -- when sunlight by way of mirrors and panes matters, and is said to. */
 #include "sim/scene.h"
-#include "tests/folder.h"
 #include "tests/quads_gltf.h"
 #include "tests/test.h"
+#include "tests/told_scene.h"
 
 #include <stdio.h>
 #include <string.h>
-
-static arena memory;
-static char *folder;
-static notices told;
-
-static int prepare(void **state)
-{
-    (void)state;
-    folder = folder_new();
-    return 0;
-}
-
-static int forget(void **state)
-{
-    (void)state;
-    folder_free(folder);
-    arena_clear(&memory);
-    return 0;
-}
-
-static const scene *scene_of(const char *text)
-{
-    char path[4096], whole[4096];
-    lux_error err = { 0 };
-    snprintf(whole, sizeof whole, "lux4: 1\n%s", text);
-    folder_write(folder, "s.yaml", whole);
-    snprintf(path, sizeof path, "%s/s.yaml", folder);
-    told           = (notices){ .a = &memory };
-    const study *s = study_read(&memory, path, NULL, &told, &err);
-    const scene *made =
-        s ? scene_new(&memory, s, &(scene_options){ .threads = 1 }, &told, &err) : NULL;
-    if (!made)
-        fail_msg("%s", err.text);
-    return made;
-}
-
-static bool was_told(const char *what)
-{
-    for (const notice *n = told.first; n; n = n->next)
-        if (strstr(n->text, what))
-            return true;
-    return false;
-}
 
 #define ROOM(glass)                                                                                \
     "room: {size: [4, 6, 3], reflectance: 0.5, windows: [\n"                                       \
@@ -58,7 +15,7 @@ static bool was_told(const char *what)
 /* Its sun falls on floor and walls, what the pane reflects leaves to the sky. */
 TEST(a_pane_alone_hides_no_sunlight)
 {
-    const scene *s = scene_of(ROOM("0.8") SUN "{azimuth: 190, elevation: 40}}\n");
+    const scene *s = told_scene_of(ROOM("0.8") SUN "{azimuth: 190, elevation: 40}}\n");
     assert_int_equal(s->sun_count, 1);
     assert_true(s->mirrors);
     assert_false(s->glints);
@@ -69,8 +26,9 @@ TEST(a_pane_alone_hides_no_sunlight)
 /* Half of the room's sun falls on a mirror, which sends it to the ceiling. */
 TEST(a_mirror_in_the_sun_is_told_of)
 {
-    const scene *s = scene_of(ROOM("1") "materials: [{match: 'room: floor', mirror: 0.8}]\n" SUN
-                                        "{azimuth: 180, elevation: 40}}\n");
+    const scene *s =
+        told_scene_of(ROOM("1") "materials: [{match: 'room: floor', mirror: 0.8}]\n" SUN
+                                "{azimuth: 180, elevation: 40}}\n");
     assert_true(s->glints);
     assert_true(was_told("of the sunlight comes by way of mirrors, panes or smooth surfaces (first "
                          "\"room: floor\") and is not found"));
@@ -80,8 +38,9 @@ TEST(a_mirror_in_the_sun_is_told_of)
 
 TEST(a_mirror_in_the_shade_is_not)
 {
-    const scene *s = scene_of(ROOM("1") "materials: [{match: 'room: ceiling', mirror: 0.8}]\n" SUN
-                                        "{azimuth: 180, elevation: 40}}\n");
+    const scene *s =
+        told_scene_of(ROOM("1") "materials: [{match: 'room: ceiling', mirror: 0.8}]\n" SUN
+                                "{azimuth: 180, elevation: 40}}\n");
     assert_false(s->glints);
     assert_null(scene_left_to_chance(s, false));
 }
@@ -95,15 +54,15 @@ TEST(a_second_pane_in_the_beam_is_told_of)
     "  {wall: south, at: [0.01, 0.3], size: [3.98, 2.6]},\n"                                       \
     "  {wall: west, at: [0.01, 0.3], size: [3.98, 2.6]" west "}]}\n" SUN                           \
     "{azimuth: 135, elevation: 5}}\n"
-    assert_true(scene_of(CORNER(", transmittance: 0.8"))->glints);
-    assert_false(scene_of(CORNER(""))->glints);
+    assert_true(told_scene_of(CORNER(", transmittance: 0.8"))->glints);
+    assert_false(told_scene_of(CORNER(""))->glints);
 }
 
 /* What the notice says, 0 to 1. */
 static double share_told(void)
 {
     double percent = 0.0;
-    for (const notice *n = told.first; n; n = n->next) {
+    for (const notice *n = told_first(); n; n = n->next) {
         const char *at = strstr(n->text, ": about ");
         if (at && strstr(n->text, "of the sunlight"))
             assert_int_equal(sscanf(at, ": about %lf %%", &percent), 1);
@@ -126,7 +85,7 @@ TEST(the_share_of_glints_is_what_two_panes_send_to_and_fro)
              "  {wall: north, at: [0.001, 0.001], size: [3.998, 2.998], transmittance: 0.8}]}\n" SUN
              "{azimuth: 180, elevation: %.12g}}\n",
              atan(1.0 / 6.0) * 180 / M_PI);
-    assert_true(scene_of(text)->glints);
+    assert_true(told_scene_of(text)->glints);
     double r = pow(0.52 / 2.52, 2), e2 = (1 - r) * (1 - r), t = 0.8;
     double a = 2 * t / (e2 + sqrt(e2 * e2 + 4 * r * r * t * t)), R = r * (1 + a * t);
     assert_near(share_told(), (R + R * R) / (1 + R + R * R), 0.04);
@@ -142,24 +101,24 @@ TEST(a_glass_facade_lights_the_court_before_it)
                           { "Wall", 0, -1, { 0, 0.1, 0 }, { 10, 0, 0 }, { 0, 0, 8 } },
                           { "Opposite", 0, -1, { 0, -10, 0 }, { 10, 0, 0 }, { 0, 0, 3 } },
     };
-    quads_gltf_write(folder, "court.gltf", court, 4, materials, 2);
-    const scene *s = scene_of("scene: court.gltf\n" SUN "{azimuth: 180, elevation: 50}}\n");
+    quads_gltf_write(told_folder(), "court.gltf", court, 4, materials, 2);
+    const scene *s = told_scene_of("scene: court.gltf\n" SUN "{azimuth: 180, elevation: 50}}\n");
     assert_true(s->glints);
     assert_true(was_told("first \"Glass\""));
-    s = scene_of("scene: court.gltf\n" SUN "{azimuth: 0, elevation: 50}}\n"); /* from behind */
+    s = told_scene_of("scene: court.gltf\n" SUN "{azimuth: 0, elevation: 50}}\n"); /* from behind */
     assert_false(s->glints);
 }
 
 TEST(lamps_are_judged_as_before)
 {
     const scene *s =
-        scene_of(ROOM("0.8") SUN "{azimuth: 190, elevation: 40}}\n"
-                                 "lights: [{type: point, at: [2, 3, 2], lumens: 1000}]\n");
+        told_scene_of(ROOM("0.8") SUN "{azimuth: 190, elevation: 40}}\n"
+                                      "lights: [{type: point, at: [2, 3, 2], lumens: 1000}]\n");
     assert_true(s->mirrors_hide);
     assert_false(s->glints);
 }
 
-#define CASE(name) cmocka_unit_test_setup_teardown(name, prepare, forget)
+#define CASE(name) cmocka_unit_test_setup_teardown(name, told_prepare, told_forget)
 
 int main(void)
 {

@@ -3,16 +3,12 @@
  */
 #include "sim/flat_pieces.h"
 #include "sim/scene.h"
-#include "tests/folder.h"
 #include "tests/quads_gltf.h"
 #include "tests/test.h"
+#include "tests/told_scene.h"
 
 #include <stdio.h>
 #include <string.h>
-
-static arena memory;
-static char *folder;
-static notices told;
 
 static const char *const materials[] = { "Wall", "Glass", "Glass door" };
 enum { WALL, GLASS, DOOR };
@@ -31,37 +27,6 @@ static const quad house[] = {
 };
 enum { WALLS = sizeof house / sizeof *house };
 
-static int prepare(void **state)
-{
-    (void)state;
-    folder = folder_new();
-    return 0;
-}
-
-static int forget(void **state)
-{
-    (void)state;
-    folder_free(folder);
-    arena_clear(&memory);
-    return 0;
-}
-
-static const scene *scene_of(const char *text)
-{
-    char path[4096], whole[8192];
-    lux_error err = { 0 };
-    snprintf(whole, sizeof whole, "lux4: 1\n%s", text);
-    folder_write(folder, "s.yaml", whole);
-    snprintf(path, sizeof path, "%s/s.yaml", folder);
-    told           = (notices){ .a = &memory };
-    const study *s = study_read(&memory, path, NULL, &told, &err);
-    const scene *made =
-        s ? scene_new(&memory, s, &(scene_options){ .threads = 1 }, &told, &err) : NULL;
-    if (!made)
-        fail_msg("%s", err.text);
-    return made;
-}
-
 #define SKY "sky: {model: overcast, horizontal: 10000}\n"
 
 /* The house with `more` in it or beside it. */
@@ -72,17 +37,9 @@ static const scene *house_with(const quad *more, int count, const char *keys)
     memcpy(all, house, sizeof house);
     if (count > 0)
         memcpy(all + WALLS, more, (size_t)count * sizeof *more);
-    quads_gltf_write(folder, "house.gltf", all, WALLS + count, materials, 3);
+    quads_gltf_write(told_folder(), "house.gltf", all, WALLS + count, materials, 3);
     snprintf(text, sizeof text, "scene: {file: house.gltf%s}\n" SKY, keys);
-    return scene_of(text);
-}
-
-static bool was_told(const char *what)
-{
-    for (const notice *n = told.first; n; n = n->next)
-        if (strstr(n->text, what))
-            return true;
-    return false;
+    return told_scene_of(text);
 }
 
 /* That rectangle, in the user's frame, and no more than 0.1 mm beyond each side; never less. */
@@ -105,10 +62,11 @@ static void assert_portal(const scene *s, int k, dvec3 low, dvec3 high, dvec3 ou
 
 TEST(each_window_of_the_room_is_a_portal)
 {
-    const scene *s = scene_of("room: {size: [4, 6, 3], reflectance: 0.5, windows: [\n"
-                              "  {wall: south, at: [0.5, 0.9], size: [1.2, 1.5]},\n"
-                              "  {wall: east, at: [1, 0.2], size: [1.5, 2], transmittance: 0.8},\n"
-                              "  {wall: ceiling, at: [1, 2], size: [0.7, 1]}]}\n" SKY);
+    const scene *s =
+        told_scene_of("room: {size: [4, 6, 3], reflectance: 0.5, windows: [\n"
+                      "  {wall: south, at: [0.5, 0.9], size: [1.2, 1.5]},\n"
+                      "  {wall: east, at: [1, 0.2], size: [1.5, 2], transmittance: 0.8},\n"
+                      "  {wall: ceiling, at: [1, 2], size: [0.7, 1]}]}\n" SKY);
     assert_int_equal(s->portal_count, 3);
     assert_string_equal(s->portals_from, "3 room windows");
     assert_non_null(s->portals);
@@ -120,8 +78,8 @@ TEST(each_window_of_the_room_is_a_portal)
 
 TEST(without_daylight_nothing_is_sought)
 {
-    const scene *s = scene_of("room: {size: [4, 6, 3], reflectance: 0.5, windows: [\n"
-                              "  {wall: south, at: [0.5, 0.9], size: [1.2, 1.5]}]}\n");
+    const scene *s = told_scene_of("room: {size: [4, 6, 3], reflectance: 0.5, windows: [\n"
+                                   "  {wall: south, at: [0.5, 0.9], size: [1.2, 1.5]}]}\n");
     assert_int_equal(s->portal_count, 0);
     assert_null(s->dome);
 }
@@ -214,7 +172,7 @@ TEST(rectangles_lie_along_edges)
     const uint32_t tags[] = { 7, 7, 7 };
     flat_piece *p;
     uint32_t n;
-    assert_true(flat_pieces_of(&memory, corners, tags, 3, &p, &n, NULL));
+    assert_true(flat_pieces_of(told_memory(), corners, tags, 3, &p, &n, NULL));
     assert_int_equal(n, 1);
     assert_int_equal(p->tag, 7);
     assert_near(p->area, 2.0, 1e-12);
@@ -229,13 +187,13 @@ TEST(pieces_end_where_planes_or_tags_do)
     const dvec3 corners[] = { o, x, y, x, w, y, o, x, z };
     flat_piece *p;
     uint32_t n;
-    assert_true(flat_pieces_of(&memory, corners, (uint32_t[]){ 1, 1, 1 }, 3, &p, &n, NULL));
+    assert_true(flat_pieces_of(told_memory(), corners, (uint32_t[]){ 1, 1, 1 }, 3, &p, &n, NULL));
     assert_int_equal(n, 2);
     assert_near(p[0].area, 1.0, 1e-12);
     assert_near(p[1].area, 0.5, 1e-12);
-    assert_true(flat_pieces_of(&memory, corners, (uint32_t[]){ 1, 2, 1 }, 3, &p, &n, NULL));
+    assert_true(flat_pieces_of(told_memory(), corners, (uint32_t[]){ 1, 2, 1 }, 3, &p, &n, NULL));
     assert_int_equal(n, 3);
-    assert_true(flat_pieces_of(&memory, corners, NULL, 0, &p, &n, NULL));
+    assert_true(flat_pieces_of(told_memory(), corners, NULL, 0, &p, &n, NULL));
     assert_int_equal(n, 0);
 }
 
@@ -259,17 +217,17 @@ TEST(odd_surfaces_do_no_harm)
     }
     flat_piece *p;
     uint32_t n;
-    assert_true(flat_pieces_of(&memory, strip, tags, 2 * STEPS, &p, &n, NULL));
+    assert_true(flat_pieces_of(told_memory(), strip, tags, 2 * STEPS, &p, &n, NULL));
     assert_int_equal(n, 1);
     assert_near(flat_piece_face(p), 2 * 18 * sin(STEPS * M_PI / 1440), 1e-3);
-    assert_true(flat_pieces_of(&memory, fan, tags, MANY, &p, &n, NULL));
+    assert_true(flat_pieces_of(told_memory(), fan, tags, MANY, &p, &n, NULL));
     assert_true(n > 900);
     fan[2] = (dvec3){ 1e200, 1e200, 0 };
-    assert_true(flat_pieces_of(&memory, fan, tags, 1, &p, &n, NULL));
+    assert_true(flat_pieces_of(told_memory(), fan, tags, 1, &p, &n, NULL));
     assert_int_equal(n, 0);
 }
 
-#define CASE(name) cmocka_unit_test_setup_teardown(name, prepare, forget)
+#define CASE(name) cmocka_unit_test_setup_teardown(name, told_prepare, told_forget)
 
 int main(void)
 {

@@ -26,13 +26,15 @@ static const double n_glass = 1.53, inner = 0.964; /* one way through the glass 
 
 typedef enum opening { ROOF_1, ROOF_4, WINDOW_2, WINDOW_4 } opening;
 
-static const char *const windows[] = { [ROOF_1]   = "{wall: ceiling, at: [1.5, 1.5], size: [1, 1]}",
-                                       [WINDOW_2] = "{wall: south, at: [1, 1], size: [2, 1]}" };
-static const quad holes[]          = {
-             [ROOF_1]   = { { { 1.5, 1.5, 3 }, { 2.5, 1.5, 3 }, { 2.5, 2.5, 3 }, { 1.5, 2.5, 3 } } },
-             [ROOF_4]   = { { { 0, 0, 3 }, { 4, 0, 3 }, { 4, 4, 3 }, { 0, 4, 3 } } },
-             [WINDOW_2] = { { { 1, 0, 1 }, { 3, 0, 1 }, { 3, 0, 2 }, { 1, 0, 2 } } },
-             [WINDOW_4] = { { { 0, 0, 0 }, { 4, 0, 0 }, { 4, 0, 3 }, { 0, 0, 3 } } },
+static const char *const windows[WINDOW_4 + 1] = {
+    [ROOF_1]   = "{wall: ceiling, at: [1.5, 1.5], size: [1, 1]}",
+    [WINDOW_2] = "{wall: south, at: [1, 1], size: [2, 1]}"
+};
+static const quad holes[] = {
+    [ROOF_1]   = { { { 1.5, 1.5, 3 }, { 2.5, 1.5, 3 }, { 2.5, 2.5, 3 }, { 1.5, 2.5, 3 } } },
+    [ROOF_4]   = { { { 0, 0, 3 }, { 4, 0, 3 }, { 4, 4, 3 }, { 0, 4, 3 } } },
+    [WINDOW_2] = { { { 1, 0, 1 }, { 3, 0, 1 }, { 3, 0, 2 }, { 1, 0, 2 } } },
+    [WINDOW_4] = { { { 0, 0, 0 }, { 4, 0, 0 }, { 4, 0, 3 }, { 0, 0, 3 } } },
 };
 static bool in_roof(opening o) { return o == ROOF_1 || o == ROOF_4; }
 

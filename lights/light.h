@@ -48,6 +48,21 @@ typedef struct light_bounds {
     bool far;         /* infinitely far: the box means nothing */
 } light_bounds;
 
+/* Light as it leaves a light, as drawn for each lane of a packet. */
+typedef struct vlight_ray {
+    vvec3 origin;    /* m: on the light; of one that is far away, before the target's sphere */
+    vvec3 direction; /* unit, where it goes */
+    vrgb flux;       /* W; the density of origin and direction is divided out: its mean over even
+                        (s, t, u, v) is light_flux() or, of one that is far away, what of its light
+                        would cross the target's sphere */
+} vlight_ray;
+
+/* Where the light of what is far away is wanted: within a sphere. */
+typedef struct light_target {
+    vec3 centre;  /* m */
+    float radius; /* m, > 0 */
+} light_target;
+
 /* What a type of light is; one constant of this type per file of lights/. */
 typedef struct light_type {
     const char *name; /* as study files write it */
@@ -74,6 +89,11 @@ typedef struct light_type {
      * where no such bound is known. NULL for a light without extent, of which sample() is exact. */
     vmask (*as_point)(const light *self, const vvec3 *p, vmask active, vlight_sample *out,
                       vfloat *error);
+
+    /* Light as it sets out: (s, t) in [0,1)^2 picks the place, (u, v) the direction. The weights of
+     * what is drawn differ as little as can be. `to` is read by lights that are far away. */
+    vmask (*emit)(const light *self, const light_target *to, vfloat s, vfloat t, vfloat u, vfloat v,
+                  vmask active, vlight_ray *out);
 
     vec3 (*flux)(const light *self); /* W, in all directions together; INFINITY if far away */
 

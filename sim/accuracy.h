@@ -60,6 +60,7 @@ typedef struct accuracy_desc {
     int items, channels;
     int judged; /* the first so many channels have half widths; 0: one. If more than one, the
                    first is not held to the accuracy: see above */
+    int told;    /* so many more, behind those, have half widths, too, and no say */
     bool apart; /* of several: each has a say of its own, against a floor of its own */
     const double *exact; /* what is known of those besides: judged * items; NULL: 0 */
     const double *bound; /* how far off the rest may be at most, >= 0: judged * items; NULL: 0 */

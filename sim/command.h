@@ -33,10 +33,14 @@ typedef struct command_line {
     int threads;        /* 0: as many as processors */
     uint32_t seed;      /* 1 */
     bool quiet, json, direct_only, half, groups, schedule;
-    double accuracy;                   /* 0.02 for 2%; NAN */
-    double seconds;                    /* NAN */
-    int width;                         /* of sky's panorama; 0: the default */
-    double exposure_ev;                /* 0: as the picture's average asks */
+    double accuracy;    /* 0.02 for 2%; NAN */
+    double seconds;     /* NAN */
+    int width;          /* of sky's panorama; 0: the default */
+    double exposure_ev; /* 0: as the picture's average asks */
+    transport transport;
+    const char *maps;   /* file of --save-maps; NULL */
+    uint32_t off, only; /* bits 1 << effect, of --no and --only */
+    bool has_only;
     const char *plot, *write, *swatch; /* NULL */
     const char *variant;               /* of the study; NULL */
     sun_line sun;

@@ -22,6 +22,8 @@ const char *effect_name(effect e)
         [EFFECT_MEASURED_BRDF]   = "measured-brdf",
         [EFFECT_TINTED_SHADOWS]  = "tinted-shadows",
         [EFFECT_COLOR]           = "color",
+        [EFFECT_MOTION]          = "motion",
+        [EFFECT_ANTIALIASING]    = "antialiasing",
     };
     return names[e];
 }

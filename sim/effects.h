@@ -21,6 +21,8 @@ typedef enum effect {
     EFFECT_MEASURED_BRDF,  /* tables, of glazing too */
     EFFECT_TINTED_SHADOWS, /* light that goes straight through surfaces */
     EFFECT_COLOR,
+    EFFECT_MOTION,       /* of instances from moment to moment */
+    EFFECT_ANTIALIASING, /* of views: more than a ray a pixel */
     EFFECTS
 } effect;
 

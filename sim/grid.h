@@ -6,6 +6,22 @@
 #include "sim/accuracy.h"
 #include "sim/scene.h"
 
+/* How interreflected light is found. */
+typedef enum transport {
+    TRANSPORT_AUTO, /* as the plan says (plan.h); where there is none, by paths */
+    TRANSPORT_PATH,
+    TRANSPORT_MAPS, /* illumination_map.h */
+} transport;
+
+/* Light by the way that it has come, whoever found it: each light is of one class. */
+typedef enum light_class {
+    CLASS_DIRECT,    /* straight from lamp, sun or sky, thin glass between or not */
+    CLASS_REFLECTED, /* all that is none of the others */
+    CLASS_MIRRORED,  /* from a lamp or sun by way of plane mirrors and panes alone (mirrors.h) */
+    CLASS_FOCUSED,   /* from a lamp or sun by way of other mirrors and of solids that refract */
+    LIGHT_CLASSES
+} light_class;
+
 /* What is asked of a run, grids and views alike. */
 typedef struct run_options {
     double accuracy; /* relative, > 0; NAN: the study's, or else the default of the command */
@@ -13,7 +29,13 @@ typedef struct run_options {
     uint32_t seed;
     int threads; /* >= 1 */
     bool direct_only;
-    bool outside;       /* grids: tell grid_result.outside */
+    bool outside; /* grids: tell grid_result.outside */
+    transport transport;
+    const char *maps;   /* file of illumination maps: read if it is there, else made; NULL */
+    bool bounded;       /* `bounces` counts */
+    int bounces;        /* reflections at most, >= 0: what comes after more is left out */
+    int roulette_from;  /* reflections before which no path is ended by chance */
+    double bound;       /* relative: how far off what the plan left out may make a result */
     progress *progress; /* may be NULL */
 } run_options;
 
@@ -48,6 +70,9 @@ typedef struct grid_result {
     int moment_count;   /* of a series, else 0: `illuminance` and all that follows are then of the
                            first moment, `missed` and `reached` of all */
     grid_moment *moments;
+    struct {
+        double average, half_width; /* lx, of the grid's average */
+    } classes[LIGHT_CLASSES];
     double *outside;  /* lx, a sensor, if asked for: of `indirect` */
     double *electric; /* lx, a sensor: what is not daylight, where a scene has both; NULL */
 

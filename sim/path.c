@@ -163,7 +163,7 @@ static vmask next_direction(path_tracer *t, int k, vscatter *next)
                                    u->z, t->active[k], next);
     if (s->smooth || s->textured)
         goes = goes & (next->straight | on_one_side(&t->shading[k], &next->wi));
-    if (!t->o->bounce)
+    if (!t->o->bounce || (t->o->bounded && t->depth >= (uint32_t)t->o->bounces))
         goes = goes & next->straight;
     vrgb worth = vmul(load3(t, WORTH, k), next->weight);
 
@@ -171,7 +171,9 @@ static vmask next_direction(path_tracer *t, int k, vscatter *next)
     vfloat most     = vmax(worth.x, vmax(worth.y, worth.z));
     vfloat surest   = vselect(next->straight, vsplat(1.0f), vsplat(surest_survival));
     vfloat survival = vmin(most, surest);
-    goes            = goes & (u->w < survival);
+    if (t->depth < (uint32_t)t->o->roulette_from)
+        survival = vsplat(1.0f);
+    goes = goes & (most > 0.0f) & (u->w < survival);
     store3(t, WORTH, k, vscale(worth, 1.0f / survival));
     return goes;
 }

@@ -47,6 +47,8 @@ typedef struct path_bundle {
                             between or not */
     path_sums indirect;  /* after at least one reflection */
     path_sums *layers;   /* NULL; or of each group, undimmed: both; behind them: direct alone */
+    path_sums *mirrored; /* NULL; or what of `indirect` came from lamps and suns by way of plane
+                            mirrors alone, as asked for there */
     path_sums *outside;  /* NULL; or what of `indirect` came last from the ground or from a surface
                             that is outside */
     path_sums *daylight; /* NULL; or what is of suns and skies */
@@ -60,6 +62,9 @@ typedef struct path_options {
     bool eye;     /* they begin with a ray from the eye: sums are the radiance that comes along it,
                      W/(sr m^2); lamps with extent are seen */
     float spread; /* rad: of the beam that a ray from the eye stands for */
+    bool bounded; /* go on at most so many times; what lets light straight through counts too */
+    int bounces;
+    int roulette_from; /* times before which no path is ended by chance */
 } path_options;
 
 typedef struct path_tracer path_tracer; /* scratch of one thread */

@@ -167,6 +167,15 @@ typedef struct scene {
 /* The light that samples may miss without an interval telling, in words; NULL if there is none. */
 const char *scene_left_to_chance(const scene *s, bool direct_only);
 
+/* Ways of reckoning that are worse or slower, for lux4 cost to show what the usual ones are worth.
+ */
+typedef struct scene_measures {
+    bool projection_test; /* world.h: TRIANGLE_PROJECTION */
+    bool nearest_tables;  /* goniodiagrams and measured BRDFs: the nearest value */
+    bool libm_tables;     /* their angles by the C library, one lane after the other */
+    bool point_sun;       /* the sun without its disk */
+} scene_measures;
+
 typedef struct scene_options {
     int threads;               /* to build on, >= 1 */
     bool layered;              /* lights as if not dimmed: for a layer of each group */
@@ -175,6 +184,8 @@ typedef struct scene_options {
                                   own one */
     int moment_count;
     bool lamps_off; /* lamps and glowing surfaces are left out */
+    uint32_t off;   /* bits 1 << effect (effects.h): effects that are left out */
+    scene_measures measures;
 } scene_options;
 
 /* Builds the scene of a study into a. NULL, with *err naming file and place. What is left out or

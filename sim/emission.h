@@ -1,0 +1,36 @@
+/* sim/emission.h -- particles of light: where all light of a scene sets out.
+ *
+ * One of all sources is drawn for each particle, in proportion to its flux (of what is far away:
+ * its flux onto the scene), then place and direction as the source shines. Daylight sets out just
+ * before the scene; where portals are all that it comes in by, from places on these. The weights
+ * are unbiased: the fluxes of N particles, each divided by N, add up to all light, and so they do
+ * for each source. In a layered scene light is undimmed, and each group has an equal share of the
+ * particles.
+ */
+#ifndef SIM_EMISSION_H
+#define SIM_EMISSION_H
+
+#include "core/sampler.h"
+#include "sim/scene.h"
+
+typedef struct emission emission;
+
+/* NULL, with *err, if memory is out. A scene without light has an emission that draws nothing. */
+const emission *emission_new(arena *a, const scene *s, lux_error *err);
+
+/* W, of all sources: as luminance. */
+double emission_flux(const emission *e);
+
+typedef struct vparticle {
+    vray ray;    /* where it begins and goes; ends at infinity */
+    vrgb flux;   /* W, the density divided out */
+    vint source; /* of scene.lights, lamps, suns, emitters; -1 - i: of scene.skies[i] */
+    vint group;  /* of scene.groups */
+    vint spare;  /* instances with this owner do not see it (world_any_hit); 0: all do */
+} vparticle;
+
+/* Particle number index of the scrambled set that `seed` names (core/sampler.h); the lanes that
+ * have one. */
+vmask emission_draw(const emission *e, vuint index, vuint seed, vmask active, vparticle *out);
+
+#endif

@@ -81,10 +81,17 @@ static vrgb dielectric_albedo(const material *self, const vshading *s, vmask act
     return vkeep3(active, vscale(left_inside(self, s), vunpolarised(border.reflected)));
 }
 
-static const material_type dielectric_type = { .name    = "dielectric",
-                                               .scatter = dielectric_scatter,
-                                               .through = dielectric_through,
-                                               .albedo  = dielectric_albedo };
+/* Off its outside: within, light has come bent. */
+static vrgb dielectric_mirrored(const material *self, const vshading *s, vmask active)
+{
+    return dielectric_albedo(self, s, active & s->front);
+}
+
+static const material_type dielectric_type = { .name     = "dielectric",
+                                               .scatter  = dielectric_scatter,
+                                               .through  = dielectric_through,
+                                               .mirrored = dielectric_mirrored,
+                                               .albedo   = dielectric_albedo };
 
 static bool valid(const dielectric_desc *d, lux_error *err)
 {

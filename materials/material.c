@@ -68,6 +68,14 @@ static vrgb albedo_one(const material *m, const vshading *s, vmask active)
     return has_holes(m) ? vkeep3(active, vscale(back, 1.0f - openness_of(m, s))) : back;
 }
 
+static vrgb mirrored_one(const material *m, const vshading *s, vmask active)
+{
+    if (!m->type->mirrored)
+        return (vrgb){ 0 };
+    vrgb back = m->type->mirrored(m, s, active);
+    return has_holes(m) ? vkeep3(active, vscale(back, 1.0f - openness_of(m, s))) : back;
+}
+
 static vrgb emission_one(const material *m, const vshading *s, vmask active)
 {
     vrgb glow = m->textures ? s->look.emission : vspread(m->look.emission);
@@ -127,6 +135,7 @@ vrgb materials_reflect(const material *const *all, vint index, const vshading *s
         return sum;                                                                                \
     }
 EACH_MATERIAL(materials_through, through_one)
+EACH_MATERIAL(materials_mirrored, mirrored_one)
 EACH_MATERIAL(materials_albedo, albedo_one)
 EACH_MATERIAL(materials_emission, emission_one)
 

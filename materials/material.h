@@ -63,6 +63,10 @@ typedef struct material_type {
      * face (material.absorption apart). NULL: nothing. */
     vrgb (*through)(const material *self, const vshading *s, vmask active);
 
+    /* What of light from the mirror direction comes back to wo as a mirror gives it back, [0, 1]:
+     * to one direction, on wo's side. NULL: nothing. */
+    vrgb (*mirrored)(const material *self, const vshading *s, vmask active);
+
     /* What of light from wo's direction, in a narrow beam, comes back on wo's side, [0, 1]: the
      * integral of f cos over that side and the mirror-like parts. */
     vrgb (*albedo)(const material *self, const vshading *s, vmask active);
@@ -173,6 +177,7 @@ vmask materials_scatter(const material *const *all, vint index, const vshading *
 vrgb materials_reflect(const material *const *all, vint index, const vshading *s, const vvec3 *wi,
                        vmask active, vfloat *pdf);
 vrgb materials_through(const material *const *all, vint index, const vshading *s, vmask active);
+vrgb materials_mirrored(const material *const *all, vint index, const vshading *s, vmask active);
 vrgb materials_albedo(const material *const *all, vint index, const vshading *s, vmask active);
 vrgb materials_emission(const material *const *all, vint index, const vshading *s, vmask active);
 

@@ -18,9 +18,9 @@ static vrgb mirror_albedo(const material *self, const vshading *s, vmask active)
     return vkeep3(active, look_color(self, s));
 }
 
-static const material_type mirror_type = { .name    = "mirror",
-                                           .scatter = mirror_scatter,
-                                           .albedo  = mirror_albedo };
+static const material_type mirror_type = {
+    .name = "mirror", .scatter = mirror_scatter, .mirrored = mirror_albedo, .albedo = mirror_albedo
+};
 
 const material *material_mirror(arena *a, const mirror_desc *d, lux_error *err)
 {

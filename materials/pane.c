@@ -76,9 +76,11 @@ static vrgb pane_albedo(const material *self, const vshading *s, vmask active)
     return pane_at(self, s, active).reflected;
 }
 
-static const material_type pane_type = {
-    .name = "pane", .scatter = pane_scatter, .through = pane_through, .albedo = pane_albedo
-};
+static const material_type pane_type = { .name     = "pane",
+                                         .scatter  = pane_scatter,
+                                         .through  = pane_through,
+                                         .mirrored = pane_albedo,
+                                         .albedo   = pane_albedo };
 
 /* ---- making ------------------------------------------------------------------------------------
  */

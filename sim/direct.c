@@ -85,6 +85,7 @@ static void take(const scene *s, direct_scratch *w, const direct_batch *b, int k
     out->wi    = vselect3(lit, lamp.wi, out->wi);
     out->e     = vselect3(lit, vscale(lamp.e, 1.0f / chance), out->e);
     out->pdf   = vselect(lit, lamp.pdf * chance, out->pdf);
+    out->dist  = vselect(lit, dist, out->dist);
     out->light = vselect_int(lit, vsplat_int(l), out->light);
 
     w->rays[k].origin    = vselect3(lit, ray.origin, w->rays[k].origin);
@@ -130,6 +131,8 @@ void direct_lamp(const scene *s, direct_scratch *w, int l, const direct_batch *b
         begin_pick(w, k, &out[k]);
         take(s, w, b, k, l, b->active[k], vsplat(1.0f), &out[k]);
     }
+    if (b->unshadowed)
+        return;
     end_picks(s, w, b->packets, RAYS_COHERENT, out);
 }
 
@@ -242,6 +245,8 @@ void direct_one(const scene *s, direct_scratch *w, const direct_batch *b, direct
             take(s, w, b, k, l, same, chance, &out[k]);
         }
     }
+    if (b->unshadowed)
+        return;
     end_picks(s, w, b->packets, RAYS_INCOHERENT, out);
 }
 

@@ -23,6 +23,7 @@ typedef struct direct_batch {
     const vsample4 *u;
     int packets;
     bool glow_alone;     /* glowing surfaces, no lamps */
+    bool unshadowed;     /* who asks looks after what stands between: no shadow ray is traced */
     bool all_around;     /* light from below the horizon counts too */
     const vmask *around; /* or that of some lanes alone; NULL */
 } direct_batch;
@@ -30,8 +31,9 @@ typedef struct direct_batch {
 /* Light from one place, as drawn for each point. */
 typedef struct direct_pick {
     vvec3 wi;
-    vrgb e;     /* W/m^2, facing wi, divided by all probabilities; 0 in shadow; tinted by glass */
-    vint light; /* of scene.lights; -1: none */
+    vrgb e;      /* W/m^2, facing wi, divided by all probabilities; 0 in shadow; tinted by glass */
+    vfloat dist; /* m, along wi, which must be clear; INFINITY: far away */
+    vint light;  /* of scene.lights; -1: none */
     vfloat pdf; /* 1/sr, with which wi is drawn; INFINITY: paths do not find the light themselves */
 } direct_pick;
 

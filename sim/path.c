@@ -28,7 +28,10 @@ path_tracer *path_tracer_new(arena *a, const scene *s, lux_error *err)
     if (!t)
         return NULL;
     t->s      = s;
-    t->fields = s->textured ? FIELDS : finds_light(s) ? FARTHER : PLAIN_FIELDS;
+    t->fields = s->textured        ? FIELDS
+                : s->mirror_images ? FARTHER
+                : finds_light(s)   ? BASE
+                                   : PLAIN_FIELDS;
     t->direct = direct_scratch_new(a, err);
     t->shown  = lamps_that_show(a, s, err);
     if (!t->direct || !t->shown.lamps)
@@ -49,6 +52,7 @@ static int keep(path_tracer *t, int k, vmask goes, int kept)
         int from       = k * LANES + __builtin_ctz((unsigned)bits);
         t->id[kept]    = t->id[from];
         t->state[kept] = t->state[from];
+        t->image[kept] = t->image[from];
         for (int f = 0; f < t->fields; f++)
             t->carried[f][kept] = t->carried[f][from];
     }
@@ -112,6 +116,11 @@ static void draw_first_directions(path_tracer *t)
         }
         if (t->patches)
             store(t, ONTO, k, vsplat(0.0f));
+        if (t->s->mirror_images) {
+            vmask round = quantity_is_round(t->o->quantity) ? ALL_LANES : (vmask){ 0 };
+            path_set_base(t, k, ALL_LANES, true, t->at[k].position, t->at[k].normal, round,
+                          load(t, PDF, k));
+        }
         store3(t, PLACE, k, vray_start(&t->at[k], &wi));
         store3(t, WAY, k, wi);
     }
@@ -140,12 +149,27 @@ static void leave(path_tracer *t, int k, const vscatter *next)
     store3(t, SIDE, k, vselect3(left, t->at[k].normal, load3(t, SIDE, k)));
 }
 
+/* A new base, or one mirror more. */
+static void leave_base(path_tracer *t, int k, const vscatter *next)
+{
+    vmask left   = t->active[k] & ~next->straight;
+    vmask single = left & (next->pdf == INFINITY);
+    vint image   = images_of(t, k);
+    vhit hit     = { .instance = vkeep_int(single, vload_int(t->instance + k * LANES)),
+                     .triangle = vkeep_int(single, vload_int(t->triangle + k * LANES)) };
+    vint longer  = mirrors_follow(t->s->mirror_images, image, &hit, single & ~next->bent);
+    vstore_int(t->image + k * LANES, vselect_int(single, longer, image));
+    path_set_base(t, k, left & ~single, false, t->at[k].position, t->at[k].normal, t->around[k],
+                  next->pdf);
+}
+
 static void note_scattered(path_tracer *t, int k, const vscatter *next)
 {
     vint before = vload_int(t->state + k * LANES);
     vint around = vselect_int(t->around[k], vsplat_int(AROUND), vsplat_int(0));
     vint wide   = vselect_int(next->pdf < INFINITY, vsplat_int(WIDE), vsplat_int(0));
-    vint after  = (before & (WIDE | OUTDOORS)) | wide | around | SCATTERED;
+    vint kept   = before & (WIDE | OUTDOORS | NOWHERE | ALL_ROUND);
+    vint after  = kept | wide | around | SCATTERED;
     vstore_int(t->state + k * LANES, vselect_int(next->straight, before | PASSED, after));
     if (t->fields < FIELDS)
         return;
@@ -187,6 +211,8 @@ static void draw_directions(path_tracer *t)
         if (t->fields > PLAIN_FIELDS)
             leave(t, k, &next);
         note_scattered(t, k, &next);
+        if (t->s->mirror_images)
+            leave_base(t, k, &next);
         store3(t, PLACE, k, vray_start(&t->at[k], &next.wi));
         store3(t, WAY, k, next.wi);
         kept = keep(t, k, goes, kept);
@@ -312,6 +338,8 @@ static void begin(path_tracer *t, path_bundle *b, const path_options *o)
     memset(b->direct, 0, sizeof b->direct);
     memset(b->indirect, 0, sizeof b->indirect);
     memset(b->met, 0, sizeof b->met);
+    if (b->mirrored)
+        memset(b->mirrored, 0, sizeof *b->mirrored);
     if (b->outside)
         memset(b->outside, 0, sizeof *b->outside);
     if (b->daylight)
@@ -321,6 +349,7 @@ static void begin(path_tracer *t, path_bundle *b, const path_options *o)
     for (int i = 0; i < PATHS; i++) {
         t->id[i]    = i < b->count ? i : 0; /* those behind the last are read, and dropped */
         t->state[i] = o->eye ? 0 : WIDE;
+        t->image[i] = -1;
         for (int c = 0; c < 3; c++)
             t->carried[WORTH + c][i] = 1.0f;
         t->carried[WIDTH][i]  = 0.0f;
@@ -331,6 +360,8 @@ static void begin(path_tracer *t, path_bundle *b, const path_options *o)
 static void ask(path_tracer *t, bool beginning)
 {
     path_ask_lights(t, beginning);
+    if (t->s->mirror_images && t->o->bounce)
+        path_ask_images(t, beginning);
     if (t->s->sky_count > 0)
         path_ask_sky(t, beginning);
     if (t->s->sun_count > 0 && (!beginning || t->o->lamps))

@@ -18,6 +18,8 @@ static void add_lane(path_tracer *t, int id, const float of[3], bool straight, b
     path_sums *sums  = is_straight ? &b->direct : &b->indirect;
     for (int c = 0; c < 3; c++) {
         (*sums)[c][id] += l->dimming * of[c];
+        if (b->mirrored && l->mirrored)
+            (*b->mirrored)[c][id] += l->dimming * of[c];
         if (b->outside && !is_straight && (outside || straight))
             (*b->outside)[c][id] += l->dimming * of[c];
         if (b->daylight && l->day)
@@ -44,20 +46,37 @@ void path_add(path_tracer *t, int k, vmask lanes, vmask straight, vrgb e, const 
     }
 }
 
+path_layer path_layer_of(const scene *s, int l)
+{
+    bool lamp = l < s->light_count;
+    return (path_layer){ .group   = lamp ? s->light_info[l].group : s->glow_group,
+                         .dimming = lamp ? s->light_info[l].dimming : s->glow_dimming,
+                         .day     = lamp && s->light_info[l].sun };
+}
+
 /* The same of light number `which` (-1: of none) in each lane: a lamp or a glowing surface. */
-static void add(path_tracer *t, vmask straight, int k, vrgb e, vint which)
+static void add(path_tracer *t, vmask straight, vmask mirrored, int k, vrgb e, vint which)
 {
     const scene *s = t->s;
     vmask left     = living(t, k) & (which >= 0);
     while (vany(left)) {
         int l;
         vmask same    = vtake_same(which, &left, &l);
-        bool lamp     = l < s->light_count;
-        path_layer to = { .group   = lamp ? s->light_info[l].group : s->glow_group,
-                          .dimming = lamp ? s->light_info[l].dimming : s->glow_dimming,
-                          .day     = lamp && s->light_info[l].sun };
-        path_add(t, k, same, straight, vscale(e, vsplat((float)scene_maintenance(s, l))), &to);
+        path_layer to = path_layer_of(s, l);
+        vrgb kept     = vscale(e, vsplat((float)scene_maintenance(s, l)));
+        path_add(t, k, same & ~mirrored, straight, kept, &to);
+        to.mirrored = true;
+        if (vany(same & mirrored))
+            path_add(t, k, same & mirrored, straight, kept, &to);
     }
+}
+
+/* Light that a ray has met: which it has come to by mirrors alone. */
+static vmask by_mirrors(const path_tracer *t, int k)
+{
+    if (!t->s->mirror_images)
+        return (vmask){ 0 };
+    return state_has(t, k, NOWHERE) & (images_of(t, k) > 0);
 }
 
 vrgb path_worth(const path_tracer *t, int k, const vvec3 *wi, bool beginning, vmask active,
@@ -101,7 +120,7 @@ static void add_lights(path_tracer *t, int k, bool beginning)
     vrgb all  = vmul(path_worth(t, k, &l->wi, beginning, active, both ? &pdf : NULL), l->e);
     if (both)
         all = vscale(all, vselect(found, power_heuristic(l->pdf, pdf), vsplat(1.0f)));
-    add(t, beginning ? ALL_LANES : (vmask){ 0 }, k, vkeep3(active, all), l->light);
+    add(t, beginning ? ALL_LANES : (vmask){ 0 }, (vmask){ 0 }, k, vkeep3(active, all), l->light);
 }
 
 /* One that is drawn by its luminance would do, but for colour and for groups: a mixture's luminance
@@ -200,8 +219,11 @@ void path_add_glow(path_tracer *t)
         vmask asked  = bright & (pdf < INFINITY);
         vfloat other = vany(asked) ? glow_pdf(t, k, asked) : (vfloat){ 0 };
         vfloat share = power_heuristic(pdf, vkeep(asked, other)) * first_of(t, k);
-        vrgb all     = vscale(vmul(load3(t, WORTH, k), glow), share);
-        add(t, ~state_has(t, k, SCATTERED), k, vkeep3(bright, all), vsplat_int(s->light_count));
+        if (s->mirror_images && t->o->bounce)
+            share = share * path_image_share(t, k, -1, emitters_met(t, k, bright), bright);
+        vrgb all = vscale(vmul(load3(t, WORTH, k), glow), share);
+        add(t, ~state_has(t, k, SCATTERED), by_mirrors(t, k), k, vkeep3(bright, all),
+            vsplat_int(s->light_count));
     }
 }
 
@@ -259,8 +281,11 @@ static void add_lamp_met(path_tracer *t, int k, int l, vmask looking)
     if (!vany(seen))
         return;
     vrgb radiance = vmul(hit.radiance, vselect3(asked, passed.share, vspread((vec3){ 1, 1, 1 })));
-    vrgb all      = vscale(vmul(load3(t, WORTH, k), radiance), lamp_share(t, k, l, seen));
-    add(t, ~state_has(t, k, SCATTERED), k, vkeep3(seen, all), vsplat_int(l));
+    vfloat share  = lamp_share(t, k, l, seen);
+    if (t->s->mirror_images && t->o->bounce)
+        share = share * path_image_share(t, k, l, vsplat_int(-1), seen);
+    vrgb all = vscale(vmul(load3(t, WORTH, k), radiance), share);
+    add(t, ~state_has(t, k, SCATTERED), by_mirrors(t, k), k, vkeep3(seen, all), vsplat_int(l));
 }
 
 /* Lamps that the rays meet on their way. */

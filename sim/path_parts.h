@@ -21,9 +21,13 @@ enum {
     PLAIN_FIELDS = WORTH + 3,    /* the next where rays find light: */
     LEFT         = PLAIN_FIELDS, /* m: where the path was last, straight passages apart */
     SIDE         = LEFT + 3,     /* the normal there */
-    PDF = SIDE + 3,     /* 1/sr, with which it left in its direction: what it then finds that glows
-                           has been asked for too. INFINITY: it has not; ALREADY: by that alone */
-    LAMP_PDF,           /* the same, of lamps */
+    PDF = SIDE + 3, /* 1/sr, with which it left in its direction: what it then finds that glows
+                       has been asked for too. INFINITY: it has not; ALREADY: by that alone */
+    LAMP_PDF,       /* the same, of lamps */
+    BASE,           /* m: where it last went off in a direction drawn from many; the next where
+                       there are mirror images */
+    BASE_SIDE = BASE + 3,      /* the normal there */
+    BASE_PDF  = BASE_SIDE + 3, /* 1/sr, of that direction */
     FARTHER,            /* m: where it was before that; the next two where suns light patches */
     ONTO = FARTHER + 3, /* 1/m^2: with which it came from there to where it was last; 0: it came
                            along a single direction, or began there */
@@ -40,6 +44,8 @@ enum {
     PASSED    = 4,  /* it has gone straight on through something since */
     WIDE      = 8,  /* some direction of it was drawn from many */
     OUTDOORS  = 16, /* the first surface that it met is outside */
+    NOWHERE   = 32, /* its base is its beginning */
+    ALL_ROUND = 64, /* at its base light from below the horizon counted */
 };
 
 struct path_tracer {
@@ -58,6 +64,8 @@ struct path_tracer {
 
     /* Of each living path: whose it is, bits, what it carries */
     int32_t id[PATHS], state[PATHS];
+    int32_t image[PATHS]; /* of scene.mirror_images: the mirrors between its base and here; -1: it
+                             has come otherwise */
     float carried[FIELDS][PATHS];
 
     /* And what it has met */
@@ -78,6 +86,7 @@ struct path_tracer {
     vmask asked[PACKETS], blocked[PACKETS];
     vpassed passed[PACKETS];
     vint nobody[PACKETS]; /* 0: of world_any_hit's `spare` */
+    vint spare[PACKETS];
 };
 
 static inline int packets_of(const path_tracer *t) { return (t->alive + LANES - 1) / LANES; }
@@ -137,7 +146,14 @@ static inline vfloat first_of(const path_tracer *t, int k)
 /* Random numbers of packet k where it stands, besides those of others that `purpose` tells apart.
  */
 vsample4 path_numbers(const path_tracer *t, int k, uint32_t purpose);
-enum { OF_LIGHT = ~0x0, OF_SKY = 0x5c1e, OF_PATCH = 0x9a7c, OF_SUN = 0x50af };
+enum {
+    OF_LIGHT     = ~0x0,
+    OF_SKY       = 0x5c1e,
+    OF_PATCH     = 0x9a7c,
+    OF_SUN       = 0x50af,
+    OF_IMAGE     = 0x316e,
+    OF_SUN_IMAGE = 0x7d05,
+};
 
 /* The lanes of packet k in which it is the turn of number `which`: of any TURNS (a power of two)
  * that follow each other one has it, and each as often. Samples that follow each other mostly
@@ -159,6 +175,7 @@ typedef struct path_layer {
     float dimming; /* of its group, as the sums of all light have it */
     bool day;      /* it is daylight */
     bool ground;   /* it has been reflected outside */
+    bool mirrored; /* it is of CLASS_MIRRORED */
 } path_layer;
 
 /* Adds what each path of packet k found, e; it came straight to those that `straight` says. */
@@ -168,6 +185,22 @@ void path_add(path_tracer *t, int k, vmask lanes, vmask straight, vrgb e, const 
 void path_ask_lights(path_tracer *t, bool beginning);
 void path_ask_sky(path_tracer *t, bool beginning);
 void path_ask_suns(path_tracer *t, bool beginning);
+
+/* The layer of light number l: a lamp, or (l >= light_count) a glowing surface. */
+path_layer path_layer_of(const scene *s, int l);
+
+/* Mirror images, where there are any (path_mirror.c): asked for where the paths stand; and what
+ * light l (or that emitter, l < 0) that packet k meets by way of them counts. */
+void path_ask_images(path_tracer *t, bool beginning);
+vfloat path_image_share(const path_tracer *t, int k, int l, vint emitter, vmask seen);
+
+/* The same light where it is met, and a path's base and mirrors as it goes on. */
+void path_set_base(path_tracer *t, int k, vmask set, bool beginning, vvec3 place, vvec3 side,
+                   vmask around, vfloat pdf);
+static inline vint images_of(const path_tracer *t, int k)
+{
+    return vload_int(t->image + k * LANES);
+}
 
 /* Light that comes by way of sunlit patches, which paths find for themselves, too. */
 void path_ask_patches(path_tracer *t, bool beginning);

@@ -255,6 +255,7 @@ const scene *scene_new(arena *a, const study *from, const scene_options *o, noti
     s->material_count = (int)b.materials.count;
     s->materials      = b.materials.items;
     s->material_info  = b.material_info.items;
+    s->mirror_images  = b.mirror_images;
     s->glow_watts     = b.glow_watts;
     s->smooth         = b.smooth;
     s->lights_differ  = b.lights_differ;

@@ -12,6 +12,7 @@
 #include "lights/photometry.h"
 #include "materials/material.h"
 #include "sim/gltf.h"
+#include "sim/mirrors.h"
 #include "sim/moments.h"
 #include "sim/study.h"
 #include "sky/dome.h"
@@ -151,6 +152,8 @@ typedef struct scene {
     bool hollow;                  /* some let light straight through, */
     bool solids;                  /* some of those are solids that refract, */
     bool narrow;                  /* some are not matt: rays find lamps by way of them */
+
+    const mirrors *mirror_images; /* NULL: no plane mirror or pane that lamps or suns light */
 
     bool reflects;          /* light goes on from some surface, to either side */
     bool glows;             /* some surface emits light */

@@ -50,18 +50,19 @@ typedef struct scene_build {
         *owned; /* of study->scenes, by their first use: meshes that are of some body; NULL: none */
     int32_t owner_count;
     list materials, material_info, lights, light_info, cameras, groups;
-    list webs;                 /* const scene_web *, by name */
-    int bounded_count;         /* of materials that reflected too much */
-    const char *first_bounded; /* the name of the first of them */
-    const void **tables;       /* of study->materials: brdf or bsdf, once it is read; NULL */
-    list emitters, emitter_of; /* const light *; int32_t */
-    int64_t *first_emitter;    /* as in the scene */
-    double glow_watts;         /* as in the scene */
-    bool smooth;               /* as in the scene */
-    bool lights_differ;        /* in colour */
-    list skies;                /* scene_sky */
-    int sun_count;             /* of the last of `lights` */
-    const moment *moments;     /* as in the scene */
+    list webs;                    /* const scene_web *, by name */
+    int bounded_count;            /* of materials that reflected too much */
+    const char *first_bounded;    /* the name of the first of them */
+    const void **tables;          /* of study->materials: brdf or bsdf, once it is read; NULL */
+    list emitters, emitter_of;    /* const light *; int32_t */
+    int64_t *first_emitter;       /* as in the scene */
+    double glow_watts;            /* as in the scene */
+    const mirrors *mirror_images; /* NULL */
+    bool smooth;                  /* as in the scene */
+    bool lights_differ;           /* in colour */
+    list skies;                   /* scene_sky */
+    int sun_count;                /* of the last of `lights` */
+    const moment *moments;        /* as in the scene */
     int moment_count;
     dvec3 centre, low, high; /* m, of the surfaces, in the user's frame */
 } scene_build;

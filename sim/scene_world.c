@@ -296,7 +296,9 @@ world *build_world(scene_build *b)
     world_parts w     = { 0 };
     world *made       = NULL;
     if (collect(&local, &w) &&
-        build_emitters(b, w.meshes, w.instances.items, (uint32_t)w.instances.count))
+        build_emitters(b, w.meshes, w.instances.items, (uint32_t)w.instances.count) &&
+        mirrors_find(b->a, w.meshes, w.instances.items, (uint32_t)w.instances.count,
+                     b->materials.items, &b->mirror_images, b->err))
         made = world_new(b->a,
                          &(world_desc){ .meshes         = w.meshes,
                                         .mesh_count     = w.mesh_count,

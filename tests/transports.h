@@ -8,7 +8,7 @@ static const transport transports[] = { TRANSPORT_PATH };
 enum { TRANSPORTS = sizeof transports / sizeof *transports };
 
 /* Reflections before which no path is ended by chance: results must not depend on it. */
-static const int roulette_depths[] = { 0, 3, 12 };
+static const int roulette_depths[] = { 0, 8 };
 enum { ROULETTE_DEPTHS = sizeof roulette_depths / sizeof *roulette_depths };
 
 #endif

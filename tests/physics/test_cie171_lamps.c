@@ -1,4 +1,4 @@
-/* tests/physics/test_cie171.c -- analytic cases of CIE 171:2006, light from lamps.
+/* tests/physics/test_cie171_lamps.c -- CIE 171:2006, 5.2 to 5.4, 5.6, 5.7: light from lamps.
  *
  * Values are exact, from independent quadrature; where the tables of the publication differ from
  * them, as in 5.7, it is known to be wrong (I. Ashdown's errata). Rooms are 4 x 4 x 3 m; points A-F

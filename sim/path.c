@@ -187,7 +187,7 @@ static vmask next_direction(path_tracer *t, int k, vscatter *next)
                                    u->z, t->active[k], next);
     if (s->smooth || s->textured)
         goes = goes & (next->straight | on_one_side(&t->shading[k], &next->wi));
-    if (!t->o->bounce || (t->o->bounded && t->depth >= (uint32_t)t->o->bounces))
+    if (!t->o->bounce || (t->o->bounded && t->depth > (uint32_t)t->o->bounces))
         goes = goes & next->straight;
     vrgb worth = vmul(load3(t, WORTH, k), next->weight);
 
@@ -357,16 +357,22 @@ static void begin(path_tracer *t, path_bundle *b, const path_options *o)
     }
 }
 
+/* Whether light may be reflected so many times more where the paths stand. */
+static bool goes_on(const path_tracer *t, int times)
+{
+    return !t->o->bounded || t->depth + (uint32_t)times <= (uint32_t)t->o->bounces;
+}
+
 static void ask(path_tracer *t, bool beginning)
 {
     path_ask_lights(t, beginning);
-    if (t->s->mirror_images && t->o->bounce)
+    if (t->s->mirror_images && t->o->bounce && goes_on(t, 1))
         path_ask_images(t, beginning);
     if (t->s->sky_count > 0)
         path_ask_sky(t, beginning);
     if (t->s->sun_count > 0 && (!beginning || t->o->lamps))
         path_ask_suns(t, beginning);
-    if (t->patches && t->o->bounce)
+    if (t->patches && t->o->bounce && goes_on(t, 1))
         path_ask_patches(t, beginning);
 }
 
@@ -394,7 +400,7 @@ void path_trace(path_tracer *t, path_bundle *b, const path_options *o)
         if (!o->bounce && !s->hollow)
             return;
         draw_numbers(t);
-        if (o->bounce)
+        if (o->bounce && goes_on(t, 0))
             ask(t, false);
         draw_directions(t);
     }

@@ -16,7 +16,7 @@
 #include <string.h>
 
 /* Whether mirrors and panes are asked for the images of lamps without extent. */
-enum { POINTS_HAVE_IMAGES = 0 };
+enum { POINTS_HAVE_IMAGES = 1 };
 
 /* Where a point of the scene is seen again: (x_sign x + x_at, y_sign y + y_at, z). */
 typedef struct image {

@@ -8,10 +8,11 @@
 #include "tests/lab.h"
 #include "tests/test.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* 16 sets of particles, followed to the first surface that they meet. */
-enum { SETS = 16, PACKETS = 256 / LANES, BATCH = PACKETS * LANES };
+enum { SETS = 16, EACH = 1 << 14, PACKETS = 256 / LANES, BATCH = PACKETS * LANES };
 
 /* A rectangle parallel to two axes, on a surface: what falls on it is told. */
 typedef struct patch {
@@ -127,7 +128,7 @@ enum { SIDE = 5 };
 static void measure(lab *l, const char *yaml, const patch *p, int patches, double *want,
                     double *off)
 {
-    lab_probe probes[MOST_PATCHES * SIDE * SIDE];
+    lab_probe probes[MOST_PATCHES * SIDE * SIDE] = { 0 };
     for (int q = 0; q < patches; q++)
         for (int i = 0; i < SIDE * SIDE; i++) {
             double x = 2.0 * (i % SIDE + 0.5) / SIDE - 1.0, y = 2.0 * (i / SIDE + 0.5) / SIDE - 1.0;
@@ -146,102 +147,310 @@ static void measure(lab *l, const char *yaml, const patch *p, int patches, doubl
     }
 }
 
-/* What patches get by particles, and as asked for there but for `rule` of it: that of the midpoint
- * rule. */
-static void agree(const char *what, const char *yaml, const patch *p, int patches, int each,
-                  double rule)
+typedef struct comparison {
+    const char *what, *yaml;
+    const patch *patches;
+    int count;
+    double rule;        /* how far the sensors' mean may be off that of a patch */
+    const int *portals; /* which of the scene's are known of; NULL: all */
+    int portal_count;
+} comparison;
+
+static const emission *lab_emission(lab *l, const scene *s)
 {
-    lab l;
-    lab_open(&l);
-    lab_speck(&l, "speck.gltf");
-    double want[MOST_PATCHES], off[MOST_PATCHES];
-    measure(&l, yaml, p, patches, want, off);
-    const scene *s    = lab_scene(&l, yaml);
-    const emission *e = emission_new(&l.a, s, NULL);
-    assert_non_null(e);
-    fallen got = let_fall(s, e, p, patches, each);
-    print_message("           %s: %.5g lm, %+.4f of that in particles\n", what,
-                  LUMENS_PER_WATT * emission_flux(e),
-                  got.flux / (LUMENS_PER_WATT * emission_flux(e)) - 1.0);
-    for (int q = 0; q < patches; q++)
-        print_message("             %9.4g lx %+.4f +- %.4f (%.4f)\n", want[q],
-                      got.lux[q] / want[q] - 1.0, got.error[q] / want[q], off[q] / want[q]);
-    for (int q = 0; q < patches; q++)
-        if (fabs(got.lux[q] - want[q]) > 4.0 * hypot(got.error[q], off[q]) + rule * want[q])
-            fail_msg("%s: patch %d gets %g lx, not %g", what, q, got.lux[q], want[q]);
-    assert_near(got.flux, LUMENS_PER_WATT * emission_flux(e),
-                0.003 + 4.0 * got.flux_error / got.flux);
-    lab_close(&l);
+    lux_error err     = { 0 };
+    const emission *e = emission_new(&l->a, s, &err);
+    if (!e)
+        fail_msg("%s", err.text);
+    return e;
 }
 
-/* ---- scenes ---------------------------------------------------------------------------------- */
+static scene with_portals(lab *l, const scene *s, const comparison *c)
+{
+    scene changed = *s;
+    if (!c->portals)
+        return changed;
+    portal *list = arena_array(&l->a, portal, (size_t)c->portal_count + 1, NULL);
+    for (int i = 0; i < c->portal_count; i++)
+        list[i] = s->portal_list[c->portals[i]];
+    changed.portal_list  = list;
+    changed.portal_count = c->portal_count;
+    return changed;
+}
 
-static const patch floor_patches[] = {
+/* What patches get by particles is what sensors get there. */
+static void agree(lab *l, const comparison *c)
+{
+    double want[MOST_PATCHES], off[MOST_PATCHES];
+    measure(l, c->yaml, c->patches, c->count, want, off);
+    const scene s     = with_portals(l, lab_scene(l, text_of(&l->a, "lux4: 1\n%s", c->yaml)), c);
+    const emission *e = lab_emission(l, &s);
+    fallen got        = let_fall(&s, e, c->patches, c->count, EACH);
+    double all        = LUMENS_PER_WATT * emission_flux(e);
+    print_message("           %s: %.5g lm, %+.4f of that in particles\n", c->what, all,
+                  got.flux / all - 1.0);
+    for (int q = 0; q < c->count; q++)
+        print_message("             %9.4g lx %+.4f +- %.4f (%.4f)\n", want[q],
+                      got.lux[q] / want[q] - 1.0, got.error[q] / want[q], off[q] / want[q]);
+    for (int q = 0; q < c->count; q++)
+        if (fabs(got.lux[q] - want[q]) > 4.0 * hypot(got.error[q], off[q]) + c->rule * want[q])
+            fail_msg("%s: patch %d gets %g lx, not %g", c->what, q, got.lux[q], want[q]);
+    assert_near(got.flux, all, 0.003 + 4.0 * got.flux_error / got.flux); /* of tables of skies */
+}
+
+/* ---- indoors --------------------------------------------------------------------------------- */
+
+static const patch inside[] = {
     { { 1.5, 1.0, 0 }, { 0.4, 0, 0 }, { 0, 0.4, 0 }, { 0, 0, 1 } },
     { { 2.4, 2.8, 0 }, { 0.4, 0, 0 }, { 0, 0.4, 0 }, { 0, 0, 1 } },
     { { 1.6, 4.0, 1.2 }, { 0.5, 0, 0 }, { 0, 0, 0.5 }, { 0, -1, 0 } },
     { { 1.6, 2.0, 2.5 }, { 0.5, 0, 0 }, { 0, 0.5, 0 }, { 0, 0, -1 } },
 };
 
-static const char room[]   = "room: {size: [3, 4, 2.5], reflectance: 0%s}\n";
-static const char window[] = ", windows: [{wall: south, at: [0.9, 0.8], size: [1.2, 1.2]},"
-                             " {wall: east, at: [1, 0.5], size: [0.5, 1.5]}]";
+#define BARE "room: {size: [3, 4, 2.5], reflectance: 0}\n"
+#define WINDOWS                                                                                    \
+    "room: {size: [3, 4, 2.5], reflectance: 0, windows: ["                                         \
+    "{wall: south, at: [0.9, 0.8], size: [1.2, 1.2]},"                                             \
+    " {wall: east, at: [1, 0.5], size: [0.5, 1.5]}]}\n"
+#define SKY                                                                                        \
+    "sky: {model: clear, sun_at: {azimuth: 170, elevation: 35}, horizontal: 15000, ground: 0.2,"   \
+    " sun: off}\n"
 
-static char *study_of(lab *l, const char *windows, const char *rest)
-{
-    char *text = text_of(&l->a, room, windows);
-    return text_of(&l->a, "%s%s\n", text, rest);
-}
-
-static void in_room(const char *what, const char *windows, const char *rest, int patches, int each,
-                    double rule)
+static void compare(comparison c)
 {
     lab l;
     lab_open(&l);
-    agree(what, study_of(&l, windows, rest), floor_patches, patches, each, rule);
+    agree(&l, &c);
     lab_close(&l);
 }
 
-TEST(lamps_of_all_kinds_together)
+TEST(lamps_of_all_kinds_give_as_if_asked)
 {
-    in_room("lamps", "",
-            "lights: [{type: point, at: [1, 1, 2], intensity: 300},"
-            " {type: cone, at: [2, 3, 2.4], aim: [0, 0, -1], intensity: 900, inner: 20, outer: 40},"
-            " {type: rect, at: [1.5, 2, 2.4], aim: [0, 0, -1], up: [0, 1, 0], size: [1.2, 0.3],"
-            " luminance: 4000},"
-            " {type: disk, at: [0.6, 3.2, 2.3], aim: [0.2, 0, -1], radius: 0.2, luminance: 5000},"
-            " {type: linear, from: [0.5, 0.5, 1.9], to: [1.7, 0.5, 1.9], intensity: 200}]",
-            4, 1 << 14, 0.01);
+    compare((comparison){
+        .what    = "lamps",
+        .yaml    = BARE "lights: [{type: point, at: [1, 1, 2], intensity: 300},"
+                        " {type: cone, at: [2, 3, 2.4], aim: [0, 0, -1], intensity: 900, inner: 20,"
+                        " outer: 40},"
+                        " {type: rect, at: [1.5, 2, 2.4], aim: [0, 0, -1], up: [0, 1, 0], size: [1.2,"
+                        " 0.3], luminance: 4000},"
+                        " {type: disk, at: [0.6, 3.2, 2.3], aim: [0.2, 0, -1], radius: 0.2,"
+                        " luminance: 5000},"
+                        " {type: linear, from: [0.5, 0.5, 1.9], to: [1.7, 0.5, 1.9], intensity: 200}]",
+        .patches = inside,
+        .count   = 4,
+        .rule    = 0.005 });
 }
 
-TEST(sun_through_windows)
+/* The patch lies where the sun shines, by the room's plan; a second one where it does not. */
+TEST(the_sun_through_a_window_gives_as_if_asked)
 {
-    const patch lit[] = {
-        { { 1.5, 1.9, 0 }, { 0.9, 0, 0 }, { 0, 1.5, 0 }, { 0, 0, 1 } },
-    };
+    const patch lit[] = { { { 1.15, 2, 0 }, { 0.3, 0, 0 }, { 0, 0.5, 0 }, { 0, 0, 1 } } };
+    compare((comparison){ .what    = "sun",
+                          .yaml    = WINDOWS "sky: {model: clear, sun_at: {azimuth: 170, elevation:"
+                                             " 35}, horizontal: 1e-3, ground: 0, sun: disk,"
+                                             " sun_illuminance: 40000}",
+                          .patches = lit,
+                          .count   = 1 });
+}
+
+TEST(the_sky_and_the_ground_through_windows_give_as_if_asked)
+{
+    compare((comparison){ .what    = "two windows, both known",
+                          .yaml    = WINDOWS SKY,
+                          .patches = inside,
+                          .count   = 4,
+                          .rule    = 0.005 });
+}
+
+/* Whatever is known of what light comes in by, it is the same light. */
+TEST(portals_change_no_light)
+{
+    compare((comparison){ .what         = "two windows, one of them known",
+                          .yaml         = WINDOWS SKY,
+                          .patches      = inside,
+                          .count        = 4,
+                          .rule         = 0.005,
+                          .portals      = (int[]){ 0 },
+                          .portal_count = 1 });
+    compare((comparison){ .what         = "two windows, one of them known twice",
+                          .yaml         = WINDOWS SKY,
+                          .patches      = inside,
+                          .count        = 4,
+                          .rule         = 0.005,
+                          .portals      = (int[]){ 0, 1, 0 },
+                          .portal_count = 3 });
+    compare((comparison){ .what         = "two windows, none of them known",
+                          .yaml         = WINDOWS SKY,
+                          .patches      = inside,
+                          .count        = 4,
+                          .rule         = 0.005,
+                          .portals      = (int[]){ 0 },
+                          .portal_count = 0 });
+}
+
+/* ---- outside --------------------------------------------------------------------------------- */
+
+static const char black[] =
+    "\"name\":\"Block\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[0,0,0,1],"
+    "\"metallicFactor\":0}";
+
+/* A block to the south of the room; its top, its side toward the room, and inside the room. */
+static const patch outside[] = {
+    { { 1.5, -2.0, 1.5 }, { 0.8, 0, 0 }, { 0, 0.3, 0 }, { 0, 0, 1 } },
+    { { 1.5, -1.5, 0.8 }, { 0.8, 0, 0 }, { 0, 0, 0.4 }, { 0, 1, 0 } },
+    { { 1.5, 1.0, 0 }, { 0.4, 0, 0 }, { 0, 0.4, 0 }, { 0, 0, 1 } },
+    { { 1.6, 4.0, 1.2 }, { 0.5, 0, 0 }, { 0, 0, 0.5 }, { 0, -1, 0 } },
+};
+
+static void beside_a_block(const char *what, const char *yaml, int first, int count)
+{
     lab l;
+    quad block[6];
     lab_open(&l);
-    char *yaml = study_of(&l, window,
-                           "sky: {model: clear, sun_at: {azimuth: 170, elevation: 35},"
-                           " horizontal: 1e-3, ground: 0, sun: disk, sun_illuminance: 40000}");
-    agree("sun", yaml, lit, 1, 1 << 14, 0.08); /* edges between sensors */
+    quads_of_box((dvec3){ 0, -2.5, 0 }, (dvec3){ 3, -1.5, 1.5 }, block);
+    lab_quads(&l, "block.gltf", block, 6, black);
+    agree(&l, &(comparison){ .what    = what,
+                             .yaml    = yaml,
+                             .patches = outside + first,
+                             .count   = count,
+                             .rule    = 0.005 });
     lab_close(&l);
 }
 
-TEST(sky_through_windows)
+TEST(skies_in_the_open_give_as_if_asked)
 {
-    in_room("sky", window,
+    beside_a_block("in the open", "scene: block.gltf\n" SKY, 0, 2);
+    beside_a_block("under sun and sky",
+                   "scene: block.gltf\nsky: {model: clear, sun_at: {azimuth: 20, elevation: 35},"
+                   " horizontal: 15000, ground: 0.2, sun: disk, sun_illuminance: 60000}\n",
+                   0, 2);
+}
+
+TEST(what_is_outside_a_room_is_lit_as_well)
+{
+    beside_a_block("beyond a window", WINDOWS "scene: block.gltf\n" SKY, 0, 4);
+    beside_a_block("beyond a window, outside",
+                   WINDOWS "scene: {file: block.gltf, exterior: Block}\n" SKY, 0, 4);
+}
+
+/* ---- sources and groups ---------------------------------------------------------------------- */
+
+/* A lamp, one dimmed, a glowing quad, sun and sky; maintenance, which is not for us. */
+static const char many[] =
+    WINDOWS "scene: glow.gltf\nmaintenance: 0.5\ndimming: {desk: 0.25, other: 0.5}\n"
+            "lights: [{type: point, at: [1, 1, 2], lumens: 1000, group: desk},"
+            " {type: rect, at: [2, 3, 2.4], lumens: 3000, group: general, color: [1, 0.8, 0.5],"
+            " up: [0, 1, 0], size: [0.5, 0.5]}]\n"
             "sky: {model: clear, sun_at: {azimuth: 170, elevation: 35}, horizontal: 15000,"
-            " ground: 0.2, sun: off}",
-            4, 1 << 14, 0.01);
+            " ground: 0.2, sun: disk, sun_illuminance: 40000}\n";
+
+static const scene *scene_of_many(lab *l, const scene_options *o)
+{
+    quad q = { { { 1, 1, 1 }, { 1, 2, 1 }, { 2, 2, 1 }, { 2, 1, 1 } } };
+    lab_quads(l, "glow.gltf", &q, 1, lab_glow(l, 300.0));
+    lab_scene(l, text_of(&l->a, "lux4: 1\n%s", many));
+    lux_error err = { 0 };
+    const study *y =
+        study_read(&l->a, text_of(&l->a, "%s/study.yaml", l->folder), NULL, NULL, &err);
+    const scene *s = y ? scene_new(&l->a, y, o, NULL, &err) : NULL;
+    if (!s)
+        fail_msg("%s", err.text);
+    return s;
+}
+
+static int group_of(const scene *s, const char *name)
+{
+    for (int i = 0; i < s->group_count; i++)
+        if (!strcmp(s->groups[i], name))
+            return i;
+    fail_msg("no group %s", name);
+    return -1;
+}
+
+/* lm, that come in by the two windows: of the sun; of ground of that reflectance under it, on
+ * upright windows. */
+static double sun_in(void)
+{
+    double a = 170.0 * M_PI / 180.0, h = 35.0 * M_PI / 180.0;
+    return 40000.0 * cos(h) * (1.44 * -cos(a) + 0.75 * sin(a));
+}
+static double ground_in(double horizontal) { return 0.5 * 0.2 * horizontal * (1.44 + 0.75); }
+
+/* Lamps as dimmed, but for glowing surfaces, and not maintained. */
+TEST(each_source_gives_its_light)
+{
+    lab l;
+    lab_open(&l);
+    const scene *s = scene_of_many(&l, &(scene_options){ .threads = 1 });
+    fallen got     = let_fall(s, lab_emission(&l, s), NULL, 0, EACH);
+    assert_near(got.of_group[group_of(s, "desk")], 250.0, 0.02);
+    assert_near(got.of_group[group_of(s, "general")], 3000.0, 0.005);
+    assert_near(got.of_group[group_of(s, "other")], 300.0 * 2.0 * M_PI, 0.005);
+    assert_near(got.of_group[group_of(s, "sun")],
+                sun_in() + ground_in(40000.0 * sin(35.0 * M_PI / 180.0)), 0.005);
+    lab_close(&l);
+}
+
+TEST(each_group_of_a_layered_scene_has_an_equal_share)
+{
+    lab l;
+    lab_open(&l);
+    const scene *s = scene_of_many(&l, &(scene_options){ .threads = 1, .layered = true });
+    fallen got     = let_fall(s, lab_emission(&l, s), NULL, 0, EACH);
+    int all        = SETS * EACH;
+    assert_int_equal(s->group_count, 5);
+    for (int g = 0; g < 5; g++)
+        print_message("           %-8s %8.1f lm, %.4f of the particles\n", s->groups[g],
+                      got.of_group[g], (double)got.in_group[g] / all);
+    for (int g = 0; g < 5; g++) /* some directions of the sky miss all windows */
+        assert_near((double)got.in_group[g] / all, 0.2, 0.05);
+    assert_near(got.of_group[group_of(s, "desk")], 1000.0, 0.003);
+    assert_near(got.of_group[group_of(s, "general")], 3000.0, 0.003);
+    assert_near(got.of_group[group_of(s, "other")], 300.0 * 2.0 * M_PI, 0.003);
+    assert_near(got.of_group[group_of(s, "sun")],
+                sun_in() + ground_in(40000.0 * sin(35.0 * M_PI / 180.0)), 0.003);
+    lab_close(&l);
+}
+
+/* More groups than have tables of their own: what each gives is still its own. */
+TEST(a_long_series_gives_each_moment_its_light)
+{
+    enum { MOMENTS = 40 };
+    lab l;
+    lab_open(&l);
+    moment list[MOMENTS];
+    for (int i = 0; i < MOMENTS; i++) {
+        double h = (10.0 + i) * M_PI / 180.0;
+        list[i]  = (moment){ .at = (double)NAN, .to_sun = { 0, (float)-cos(h), (float)sin(h) } };
+        snprintf(list[i].text, sizeof list[i].text, "m%d", i);
+    }
+    const scene *s = scene_of_many(
+        &l, &(scene_options){
+                .threads = 1, .moments = list, .moment_count = MOMENTS, .lamps_off = true });
+    fallen got = let_fall(s, lab_emission(&l, s), NULL, 0, EACH);
+    for (int i = 1; i <= 5; i++) {
+        double h    = (9.0 + i) * M_PI / 180.0;
+        double sun  = 40000.0 * cos(h) * 1.44 + ground_in(40000.0 * sin(h));
+        double want = sun + ground_in(15000.0);
+        print_message("           %s %.6g lm of sun and ground, %.6g in all\n", s->groups[i], want,
+                      got.of_group[i]);
+        assert_true(got.of_group[i] > want);
+    }
+    lab_close(&l);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lamps_of_all_kinds_together),
-        cmocka_unit_test(sun_through_windows),
-        cmocka_unit_test(sky_through_windows),
+        cmocka_unit_test(lamps_of_all_kinds_give_as_if_asked),
+        cmocka_unit_test(the_sun_through_a_window_gives_as_if_asked),
+        cmocka_unit_test(the_sky_and_the_ground_through_windows_give_as_if_asked),
+        cmocka_unit_test(portals_change_no_light),
+        cmocka_unit_test(skies_in_the_open_give_as_if_asked),
+        cmocka_unit_test(what_is_outside_a_room_is_lit_as_well),
+        cmocka_unit_test(each_source_gives_its_light),
+        cmocka_unit_test(each_group_of_a_layered_scene_has_an_equal_share),
+        cmocka_unit_test(a_long_series_gives_each_moment_its_light),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

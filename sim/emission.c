@@ -108,6 +108,17 @@ static light_target sphere_around(const scene *s)
     return (light_target){ scene_place(s, middle), (float)fmax(wider * far, 1e-3) };
 }
 
+/* Whether ceiling, walls and floor of the room let no light through: its first materials. */
+static bool room_is_opaque(const scene *s)
+{
+    for (int i = 0; i < ROOM_MATERIALS; i++) {
+        vec3 through = s->material_info[i].transmittance;
+        if ((s->material_does[i] & (DOES_HOLLOW | DOES_SOLID)) || v3_length(through) > 0.0f)
+            return false;
+    }
+    return true;
+}
+
 /* Whether no daylight is of use but what comes in by portals: where all surfaces are a box room
  * whose windows they are, and what is in it. (Its walls are lit from outside as well, but give
  * that light on to nothing.) */
@@ -115,8 +126,9 @@ static bool is_closed_room(const scene *s)
 {
     const study_room *r = &s->study->room;
     const double off    = 1e-6;
-    return r->given && s->portal_count == r->window_count && s->low.x >= -off && s->low.y >= -off &&
-           s->low.z >= -off && s->high.x <= r->size.x + off && s->high.y <= r->size.y + off &&
+    return r->given && room_is_opaque(s) && s->portal_count == r->window_count &&
+           s->low.x >= -off && s->low.y >= -off && s->low.z >= -off &&
+           s->high.x <= r->size.x + off && s->high.y <= r->size.y + off &&
            s->high.z <= r->size.z + off;
 }
 

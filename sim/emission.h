@@ -1,10 +1,12 @@
 /* sim/emission.h -- particles of light: where all light of a scene sets out.
  *
  * One of all sources is drawn for each particle, in proportion to its flux (of what is far away:
- * its flux onto the scene), then place and direction as the source shines. Daylight sets out just
- * before the scene; where portals are all that it comes in by, from places on these. The weights
- * are unbiased: the fluxes of N particles, each divided by N, add up to all light, and so they do
- * for each source.
+ * its flux onto the scene, or by portals into it), then place and direction as the source shines.
+ * Daylight sets out before the sphere around the scene, whatever it is aimed at: along lines
+ * through portals, mixed by one density with lines over all of the sphere (emission_parts.h), but
+ * for a closed box room, whose windows all light comes in by. The weights are unbiased: the fluxes
+ * of N particles, each divided by N, add up to all light, and so they do for each source. Numbers
+ * without a particle count in N.
  *
  * Light is as scene.lights and scene.skies hold it: neither scene_light.dimming nor
  * scene.glow_dimming nor scene_maintenance() is applied, which is for who adds particles up, as it

@@ -60,7 +60,8 @@ typedef struct accuracy_desc {
     int items, channels;
     int judged; /* the first so many channels have half widths; 0: one. If more than one, the
                    first is not held to the accuracy: see above */
-    int told;    /* so many more, behind those, have half widths, too, and no say */
+    int told;   /* so many more, behind those, have half widths, too, and no say; each has a floor
+                   of its own, and nothing of it is known besides */
     bool apart; /* of several: each has a say of its own, against a floor of its own */
     const double *exact; /* what is known of those besides: judged * items; NULL: 0 */
     const double *bound; /* how far off the rest may be at most, >= 0: judged * items; NULL: 0 */
@@ -89,7 +90,7 @@ const char *run_end_text(run_end end);
 
 typedef struct accuracy_result {
     double *mean;       /* items * channels, channel by channel; without `exact` */
-    double *half_width; /* judged * items, channel by channel; bounds included */
+    double *half_width; /* (judged + told) * items, channel by channel; bounds included */
     uint32_t *samples;  /* an item: all its samples */
     int missed;         /* items that are not done */
     double floor;       /* what `floor` came to, of channel 0 */

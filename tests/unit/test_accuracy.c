@@ -187,6 +187,26 @@ TEST(several_channels_are_judged_each_by_itself)
     arena_clear(&a);
 }
 
+/* Channel 1 is twice channel 0, and nothing of it is known besides: its floor is its own. */
+TEST(a_channel_that_is_only_told_has_a_half_width_and_no_say)
+{
+    arena a              = { 0 };
+    const double exact[] = { 1e4, 1e4, 1e4 }, bound[] = { 1.0, 1.0, 1.0 };
+    fake f            = { .value = three_spreads, .channels = 2 };
+    accuracy_desc d   = desc_of(&f, 3);
+    d.told            = 1;
+    d.exact           = exact;
+    d.bound           = bound;
+    d.accuracy        = 0.002; /* of 10000; of channel 1's 20, items 0 and 2 are far from it */
+    accuracy_result r = run(&a, &d);
+    assert_true(r.end == RUN_DONE && r.missed == 0 && r.samples[0] == 16 * 32);
+    assert_near(r.mean[3 + 2], 40.0, 1e-7);
+    assert_near(r.half_width[0], 2.0 * unit_half + 1.0, 1e-4);
+    assert_near(r.half_width[3 + 0], 4.0 * unit_half, 1e-4);
+    assert_near(r.half_width[3 + 1], 20.0 * sqrt(0.0425 / 6.0) * unit_half, 1e-4);
+    arena_clear(&a);
+}
+
 static float by_item(sample_id id) { return (float)(id.item + 1); }
 
 TEST(every_channel_has_its_means)
@@ -465,6 +485,7 @@ int main(void)
         cmocka_unit_test(several_channels_are_judged_each_by_itself),
         cmocka_unit_test(a_small_part_is_judged_by_what_it_is_part_of),
         cmocka_unit_test(what_bounds_alone_spoil_is_not_sampled_for_ever),
+        cmocka_unit_test(a_channel_that_is_only_told_has_a_half_width_and_no_say),
         cmocka_unit_test(every_channel_has_its_means),
         cmocka_unit_test(samples_double_until_the_accuracy_is_reached),
         cmocka_unit_test(the_share_needed_may_leave_the_worst_items_behind),

@@ -21,6 +21,12 @@ typedef struct by_scramble {
     float sum[SCRAMBLES];
 } by_scramble;
 
+/* n h^2, of n samples and half width h, at the last two looks at an item: after so many samples */
+typedef struct look {
+    float before, now;
+    uint32_t samples;
+} look;
+
 typedef struct run_state {
     const accuracy_desc *d;
     accuracy_result *r;
@@ -29,6 +35,7 @@ typedef struct run_state {
     double *total;      /* items * channels, channel by channel */
     by_scramble *parts; /* an item, of each of those: item * spread + channel */
     double *floors;     /* of each of those */
+    look *looks;        /* as parts */
     float *values;      /* a thread: channels * BUNDLE */
 
     /* This round: n new samples for each scramble of the active items, beginning with number
@@ -248,14 +255,34 @@ static double ratio_of(const run_state *s, int channel, int item)
     return half == 0.0 ? 0.0 : half / against_of(s, channel, item); /* infinite if that is 0 */
 }
 
+/* An item is looked at after each round that it takes part in. */
+static void look_at(const run_state *s, int channel, int item)
+{
+    double n = s->r->samples[item], half = s->r->half_width[at(s, channel, item)];
+    look *l = &s->looks[(size_t)item * (size_t)s->spread + (size_t)channel];
+    if (s->rounds > 0 && l->samples != s->r->samples[item])
+        *l = (look){ l->now, (float)(n * half * half), s->r->samples[item] };
+}
+
+/* The square of the half width that an item would have if its samples were as alike as those of the
+ * others (pool: n ratio^2), or as they were at the look before, if that is more. */
+static double others_square(const run_state *s, int channel, int item, double pool)
+{
+    double n = s->r->samples[item], against = against_of(s, channel, item);
+    const look *l = &s->looks[(size_t)item * (size_t)s->spread + (size_t)channel];
+    return n > 0.0 ? fmax(pool * against * against, (double)l->before) / n : 0.0;
+}
+
 /* Half widths of all items: their own, widened where an item seems surer than the others are on
- * average for as many samples. Its samples may just have missed what is rare and bright. */
+ * average for as many samples, or than it was itself. Its samples may just have missed what is rare
+ * and bright. */
 static void estimate_half_widths(run_state *s, int channel)
 {
     double pool = 0.0, count = 0.0; /* mean of n ratio^2 */
     double *half = s->r->half_width + at(s, channel, 0);
     for (int i = 0; i < s->d->items; i++) {
-        half[i]      = own_half_width(s, channel, i);
+        half[i] = own_half_width(s, channel, i);
+        look_at(s, channel, i);
         double ratio = ratio_of(s, channel, i);
         if (!(ratio < HUGE_VAL)) /* or is no number */
             continue;
@@ -264,10 +291,9 @@ static void estimate_half_widths(run_state *s, int channel)
     }
     pool = count > 0.0 ? pool / count : 0.0;
     for (int i = 0; i < s->d->items; i++) {
-        double own = ratio_of(s, channel, i), n = s->r->samples[i];
-        double others = n > 0.0 ? pool / n : 0.0;
-        if (own * own < others)
-            half[i] = sqrt(0.5 * (own * own + others)) * against_of(s, channel, i);
+        double own = half[i] * half[i], others = others_square(s, channel, i, pool);
+        if (own < others)
+            half[i] = sqrt(0.5 * (own + others));
         half[i] += s->d->bound && channel < s->judged ? s->d->bound[at(s, channel, i)] : 0.0;
     }
 }
@@ -432,11 +458,12 @@ bool accuracy_run(arena *a, const accuracy_desc *d, accuracy_result *out, lux_er
                                        .samples    = arena_array(a, uint32_t, items, err) };
     s.total       = arena_array(&scratch, double, values, err);
     s.parts       = arena_array(&scratch, by_scramble, spread * items, err);
+    s.looks       = arena_array(&scratch, look, spread * items, err);
     s.floors      = arena_array(&scratch, double, spread, err);
     s.active      = arena_array(&scratch, int, items, err);
     s.values  = arena_array(&scratch, float, (size_t)d->threads *(size_t)d->channels *BUNDLE, err);
-    bool good = out->mean && out->half_width && out->samples && s.total && s.parts && s.floors &&
-                s.active && s.values && run_rounds(&s, err);
+    bool good = out->mean && out->half_width && out->samples && s.total && s.parts && s.looks &&
+                s.floors && s.active && s.values && run_rounds(&s, err);
     for (size_t v = 0; good && v < values; v++) {
         uint32_t n   = out->samples[v % items];
         out->mean[v] = n ? s.total[v] / n : 0.0;

@@ -1,5 +1,6 @@
 /* tests/unit/test_accuracy.c -- rounds of samples, half widths and why runs end, on fake samples
  * whose values are known. */
+#include "core/sampler.h"
 #include "sim/accuracy.h"
 #include "tests/test.h"
 
@@ -219,6 +220,37 @@ TEST(every_channel_has_its_means)
         for (int i = 0; i < 5; i++)
             assert_near(r.mean[c * 5 + i], (c + 1) * (i + 1), 1e-12);
     arena_clear(&a);
+}
+
+/* Exponential samples of mean 1, which are skewed; of one unknown alone, which no others help. Its
+ * runs end after the second round to the fifth. Of 4000 intervals of 95 %, 95 % +- 0.35 % hold the
+ * mean; of those that forget what they were at the look before, 93.8 %. */
+static uint32_t trial;
+
+static float exponential(sample_id id)
+{
+    uint32_t h = hash_combine_u32(hash_combine_u32(hash_u32(trial), id.scramble), id.index);
+    return (float)-log((h + 0.5) * 0x1p-32);
+}
+
+TEST(looking_after_each_round_leaves_the_intervals_valid)
+{
+    enum { TRIALS = 4000 };
+    int held = 0, within = 0;
+    for (trial = 1; trial <= TRIALS; trial++) {
+        arena a           = { 0 };
+        fake f            = { .value = exponential };
+        accuracy_desc d   = desc_of(&f, 1);
+        d.first_samples   = 8;
+        d.accuracy        = 0.1;
+        accuracy_result r = run(&a, &d);
+        held += fabs(r.mean[0] - 1.0) <= r.half_width[0];
+        within += fabs(r.mean[0] - 1.0) <= d.accuracy;
+        arena_clear(&a);
+    }
+    if (!(held >= 0.945 * TRIALS && within >= 0.95 * TRIALS))
+        fail_msg("of %d intervals %d hold the truth, %d values are as accurate as asked", TRIALS,
+                 held, within);
 }
 
 /* ---- rounds ---------------------------------------------------------------------------------- */
@@ -488,6 +520,7 @@ int main(void)
         cmocka_unit_test(what_bounds_alone_spoil_is_not_sampled_for_ever),
         cmocka_unit_test(a_channel_that_is_only_told_has_a_half_width_and_no_say),
         cmocka_unit_test(every_channel_has_its_means),
+        cmocka_unit_test(looking_after_each_round_leaves_the_intervals_valid),
         cmocka_unit_test(samples_double_until_the_accuracy_is_reached),
         cmocka_unit_test(the_share_needed_may_leave_the_worst_items_behind),
         cmocka_unit_test(the_floor_is_a_tenth_of_the_mean_or_of_the_geometric_mean),

@@ -21,13 +21,21 @@ typedef struct by_scramble {
     float sum[SCRAMBLES];
 } by_scramble;
 
+/* n h^2, of n samples and half width h, at the last two looks at an item: after so many samples */
+typedef struct look {
+    float before, now;
+    uint32_t samples;
+} look;
+
 typedef struct run_state {
     const accuracy_desc *d;
     accuracy_result *r;
     int judged;         /* channels */
+    int spread;         /* those and the ones that are only told: whose spread is known */
     double *total;      /* items * channels, channel by channel */
-    by_scramble *parts; /* an item, of each judged channel: item * judged + channel */
-    double *floors;     /* of each judged channel */
+    by_scramble *parts; /* an item, of each of those: item * spread + channel */
+    double *floors;     /* of each of those */
+    look *looks;        /* as parts */
     float *values;      /* a thread: channels * BUNDLE */
 
     /* This round: n new samples for each scramble of the active items, beginning with number
@@ -81,7 +89,7 @@ static void add_set(run_state *s, const float *values, int begin, int end, doubl
         for (int i = begin; i < end; i++)
             sum += (double)values[c * BUNDLE + i];
         total[c] += sum;
-        if (c < s->judged)
+        if (c < s->spread)
             parts[c].sum[scramble] = (float)((double)parts[c].sum[scramble] + sum);
     }
 }
@@ -112,7 +120,7 @@ static void sample_sets(run_state *s, int thread, int j0, int j1, int r0, int r1
                     at = (set - from) * (int)step;
                 add_set(s, values, at, at + (int)step,
                         totals + (size_t)(j - j0) * (size_t)s->d->channels,
-                        &s->new_parts[j * s->judged], r);
+                        &s->new_parts[j * s->spread], r);
             }
         }
     }
@@ -142,7 +150,7 @@ static void do_work(void *context, int item, int thread)
 static void take_over(run_state *s)
 {
     size_t channels = (size_t)s->d->channels, active = (size_t)s->active_count;
-    size_t judged = (size_t)s->judged;
+    size_t spread = (size_t)s->spread;
     for (size_t j = 0; j < active; j++) {
         if (s->pieces_done[j] < s->pieces)
             continue;
@@ -151,9 +159,9 @@ static void take_over(run_state *s)
             for (size_t piece = 0; piece < (size_t)s->pieces; piece++)
                 s->total[c * (size_t)s->d->items + item] +=
                     s->new_total[(piece * active + j) * channels + c];
-        for (size_t q = 0; q < judged; q++)
+        for (size_t q = 0; q < spread; q++)
             for (int r = 0; r < SCRAMBLES; r++)
-                s->parts[item * judged + q].sum[r] += s->new_parts[j * judged + q].sum[r];
+                s->parts[item * spread + q].sum[r] += s->new_parts[j * spread + q].sum[r];
         s->r->samples[item] += (uint32_t)(s->to - s->from) * s->n;
     }
 }
@@ -168,7 +176,7 @@ static bool sample_round(run_state *s, lux_error *err)
     s->pieces        = whole && an_item > BUNDLE && s->active_count < FEW_ITEMS ? SCRAMBLES : 1;
     s->new_total =
         arena_array(&scratch, double, active *(size_t)s->pieces *(size_t)s->d->channels, err);
-    s->new_parts   = arena_array(&scratch, by_scramble, active * (size_t)s->judged, err);
+    s->new_parts   = arena_array(&scratch, by_scramble, active * (size_t)s->spread, err);
     s->pieces_done = arena_array(&scratch, atomic_int, active, err);
     if (s->new_total && s->new_parts && s->pieces_done) {
         int items = (s->active_count + s->together - 1) / s->together * s->pieces;
@@ -193,8 +201,9 @@ static size_t at(const run_state *s, int channel, int item)
 
 static double value_of(const run_state *s, int channel, int item)
 {
-    double n = s->r->samples[item];
-    return (s->d->exact ? s->d->exact[at(s, channel, item)] : 0.0) +
+    double n   = s->r->samples[item];
+    bool known = s->d->exact && channel < s->judged;
+    return (known ? s->d->exact[at(s, channel, item)] : 0.0) +
            (n > 0 ? s->total[at(s, channel, item)] / n : 0.0);
 }
 
@@ -202,7 +211,7 @@ static double value_of(const run_state *s, int channel, int item)
 static double own_half_width(const run_state *s, int channel, int item)
 {
     int scrambles     = s->scrambles;
-    const float *part = s->parts[(size_t)item * (size_t)s->judged + (size_t)channel].sum;
+    const float *part = s->parts[(size_t)item * (size_t)s->spread + (size_t)channel].sum;
     double n = (double)s->r->samples[item] / scrambles, mean = 0.0, squares = 0.0;
     if (!(n > 0.0) || scrambles < 2)
         return HUGE_VAL;
@@ -234,7 +243,8 @@ static double floor_of(const run_state *s, int channel)
 /* What the accuracy asked for is relative to. */
 static double against_of(const run_state *s, int channel, int item)
 {
-    double floor = s->floors[channel < 2 || s->d->apart ? channel : 1];
+    bool own     = channel < 2 || s->d->apart || channel >= s->judged;
+    double floor = s->floors[own ? channel : 1];
     return fmax(fabs(value_of(s, channel, item)), floor);
 }
 
@@ -245,14 +255,34 @@ static double ratio_of(const run_state *s, int channel, int item)
     return half == 0.0 ? 0.0 : half / against_of(s, channel, item); /* infinite if that is 0 */
 }
 
+/* An item is looked at after each round that it takes part in. */
+static void look_at(const run_state *s, int channel, int item)
+{
+    double n = s->r->samples[item], half = s->r->half_width[at(s, channel, item)];
+    look *l = &s->looks[(size_t)item * (size_t)s->spread + (size_t)channel];
+    if (s->rounds > 0 && l->samples != s->r->samples[item])
+        *l = (look){ l->now, (float)(n * half * half), s->r->samples[item] };
+}
+
+/* The square of the half width that an item would have if its samples were as alike as those of the
+ * others (pool: n ratio^2), or as they were at the look before, if that is more. */
+static double others_square(const run_state *s, int channel, int item, double pool)
+{
+    double n = s->r->samples[item], against = against_of(s, channel, item);
+    const look *l = &s->looks[(size_t)item * (size_t)s->spread + (size_t)channel];
+    return n > 0.0 ? fmax(pool * against * against, (double)l->before) / n : 0.0;
+}
+
 /* Half widths of all items: their own, widened where an item seems surer than the others are on
- * average for as many samples. Its samples may just have missed what is rare and bright. */
+ * average for as many samples, or than it was itself. Its samples may just have missed what is rare
+ * and bright. */
 static void estimate_half_widths(run_state *s, int channel)
 {
     double pool = 0.0, count = 0.0; /* mean of n ratio^2 */
     double *half = s->r->half_width + at(s, channel, 0);
     for (int i = 0; i < s->d->items; i++) {
-        half[i]      = own_half_width(s, channel, i);
+        half[i] = own_half_width(s, channel, i);
+        look_at(s, channel, i);
         double ratio = ratio_of(s, channel, i);
         if (!(ratio < HUGE_VAL)) /* or is no number */
             continue;
@@ -261,11 +291,10 @@ static void estimate_half_widths(run_state *s, int channel)
     }
     pool = count > 0.0 ? pool / count : 0.0;
     for (int i = 0; i < s->d->items; i++) {
-        double own = ratio_of(s, channel, i), n = s->r->samples[i];
-        double others = n > 0.0 ? pool / n : 0.0;
-        if (own * own < others)
-            half[i] = sqrt(0.5 * (own * own + others)) * against_of(s, channel, i);
-        half[i] += s->d->bound ? s->d->bound[at(s, channel, i)] : 0.0;
+        double own = half[i] * half[i], others = others_square(s, channel, i, pool);
+        if (own < others)
+            half[i] = sqrt(0.5 * (own + others));
+        half[i] += s->d->bound && channel < s->judged ? s->d->bound[at(s, channel, i)] : 0.0;
     }
 }
 
@@ -321,7 +350,7 @@ static bool judge(run_state *s, lux_error *err)
     if (!ratios)
         return false;
 
-    for (int q = 0; q < s->judged; q++) {
+    for (int q = 0; q < s->spread; q++) {
         s->floors[q] = floor_of(s, q);
         estimate_half_widths(s, q);
     }
@@ -421,18 +450,20 @@ bool accuracy_run(arena *a, const accuracy_desc *d, accuracy_result *out, lux_er
 {
     size_t items = (size_t)d->items, values = items * (size_t)d->channels;
     arena scratch = { 0 };
-    size_t judged = d->judged ? (size_t)d->judged : 1;
-    run_state s   = { .d = d, .r = out, .judged = (int)judged };
+    int judged    = d->judged ? d->judged : 1;
+    size_t spread = (size_t)(judged + d->told);
+    run_state s   = { .d = d, .r = out, .judged = judged, .spread = judged + d->told };
     *out          = (accuracy_result){ .mean       = arena_array(a, double, values, err),
-                                       .half_width = arena_array(a, double, judged *items, err),
+                                       .half_width = arena_array(a, double, spread *items, err),
                                        .samples    = arena_array(a, uint32_t, items, err) };
     s.total       = arena_array(&scratch, double, values, err);
-    s.parts       = arena_array(&scratch, by_scramble, judged * items, err);
-    s.floors      = arena_array(&scratch, double, judged, err);
+    s.parts       = arena_array(&scratch, by_scramble, spread * items, err);
+    s.looks       = arena_array(&scratch, look, spread * items, err);
+    s.floors      = arena_array(&scratch, double, spread, err);
     s.active      = arena_array(&scratch, int, items, err);
     s.values  = arena_array(&scratch, float, (size_t)d->threads *(size_t)d->channels *BUNDLE, err);
-    bool good = out->mean && out->half_width && out->samples && s.total && s.parts && s.floors &&
-                s.active && s.values && run_rounds(&s, err);
+    bool good = out->mean && out->half_width && out->samples && s.total && s.parts && s.looks &&
+                s.floors && s.active && s.values && run_rounds(&s, err);
     for (size_t v = 0; good && v < values; v++) {
         uint32_t n   = out->samples[v % items];
         out->mean[v] = n ? s.total[v] / n : 0.0;

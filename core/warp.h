@@ -42,6 +42,17 @@ static inline vvec3 vwarp_sphere(vfloat s, vfloat t)
 }
 #define WARP_SPHERE_PDF (0.25f / WARP_PI) /* 1/sr */
 
+/* The direction at the angle a to the unit vector n, 1 - cos a = less in [0, 2], turned about it by
+ * t of a whole turn. Even in `less` is even in solid angle; small angles keep their digits. */
+static inline vvec3 vwarp_about(vvec3 n, vfloat less, vfloat t)
+{
+    vvec3 u, v;
+    vfloat phi = (2.0f * WARP_PI) * t;
+    vfloat r   = vsqrt(vmax(less * (2.0f - less), vsplat(0.0f)));
+    vframe(n, &u, &v);
+    return vadd(vscale(n, 1.0f - less), vadd(vscale(u, r * vcos(phi)), vscale(v, r * vsin(phi))));
+}
+
 /* A place even in area on a triangle: the weights u, v >= 0 of its corners 1 and 2, that of
  * corner 0 being 1 - u - v, >= 0 to rounding. The pdf is one over the triangle's area, 1/m^2 (Turk,
  * "Generating random points in triangles", Graphics Gems 1990). */

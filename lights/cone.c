@@ -3,9 +3,11 @@
  *     I(a) = I0 clamp((cos a - cos outer) / (cos inner - cos outer), 0, 1)^2        [W/sr]
  *
  * with a the angle to the axis: the ramp of KHR_lights_punctual (glTF). It sends out
- * 2 pi I0 ((1 - cos inner) + (cos inner - cos outer) / 3) watts.
+ * 2 pi I0 ((1 - cos inner) + (cos inner - cos outer) / 3) watts. Drawn by intensity, the ramp in
+ * the rim has the density 3 ramp^2: it is the cubic root of an even number.
  */
 #include "core/color.h"
+#include "core/warp.h"
 #include "lights/light.h"
 
 typedef struct cone_light {
@@ -47,6 +49,26 @@ static vec3 cone_flux(const light *self)
     return v3_scale(l->intensity, 2.0f * (float)M_PI * (full + rim));
 }
 
+static vmask cone_emit(const light *self, const light_target *to, vfloat s, vfloat t, vfloat u,
+                       vfloat v, vmask active, vlight_ray *out)
+{
+    const cone_light *l = (const cone_light *)self;
+    (void)to, (void)s, (void)t;
+    float inner = 1.0f - l->cos_inner;
+    float outer = 1.0f - l->cos_outer;
+    float rim   = (outer - inner) / 3.0f;
+
+    vfloat at   = u * (inner + rim);
+    vfloat even = vmin(vmax((at - inner) / rim, vsplat(0.0f)), vsplat(1.0f));
+    vfloat ramp = vexp2(vlog2(even) * (1.0f / 3));
+    vfloat less = vselect(at < inner, at, outer - ramp * (outer - inner));
+
+    out->origin    = vkeep3(active, vspread(l->position));
+    out->direction = vkeep3(active, vwarp_about(vspread(l->axis), less, v));
+    out->flux      = vkeep3(active, vspread(cone_flux(self)));
+    return active;
+}
+
 static vec3 cone_peak(const light *self, vec3 *toward)
 {
     *toward = ((const cone_light *)self)->axis;
@@ -66,6 +88,7 @@ static light_bounds cone_bounds(const light *self)
 
 static const light_type cone_type = { .name   = "cone",
                                       .sample = cone_sample,
+                                      .emit   = cone_emit,
                                       .flux   = cone_flux,
                                       .peak   = cone_peak,
                                       .bounds = cone_bounds };

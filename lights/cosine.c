@@ -7,7 +7,7 @@
  * to n times that.
  */
 #include "core/color.h"
-#include "core/packet_math.h"
+#include "core/warp.h"
 #include "lights/light.h"
 
 typedef struct cosine_light {
@@ -59,6 +59,19 @@ static vec3 cosine_flux(const light *self)
     return v3_scale(l->intensity, 2.0f * (float)M_PI / (l->exponent + 1.0f));
 }
 
+/* By intensity, the power n + 1 of the cosine is even. */
+static vmask cosine_emit(const light *self, const light_target *to, vfloat s, vfloat t, vfloat u,
+                         vfloat v, vmask active, vlight_ray *out)
+{
+    const cosine_light *l = (const cosine_light *)self;
+    (void)to, (void)s, (void)t;
+    vfloat cos_a   = vexp2(vlog2(1.0f - u) * (1.0f / (l->exponent + 1.0f)));
+    out->origin    = vkeep3(active, vspread(l->position));
+    out->direction = vkeep3(active, vwarp_about(vspread(l->axis), 1.0f - cos_a, v));
+    out->flux      = vkeep3(active, vspread(cosine_flux(self)));
+    return active;
+}
+
 static vec3 cosine_peak(const light *self, vec3 *toward)
 {
     *toward = ((const cosine_light *)self)->axis;
@@ -78,6 +91,7 @@ static light_bounds cosine_bounds(const light *self)
 
 static const light_type cosine_type = { .name   = "cosine",
                                         .sample = cosine_sample,
+                                        .emit   = cosine_emit,
                                         .flux   = cosine_flux,
                                         .peak   = cosine_peak,
                                         .bounds = cosine_bounds };

@@ -32,7 +32,7 @@
  * that are small or round: so nothing degenerates where the disk is tiny or near.
  */
 #include "core/color.h"
-#include "core/packet_math.h"
+#include "core/warp.h"
 #include "lights/light.h"
 
 #define PI 3.14159265f
@@ -408,6 +408,21 @@ static vec3 disk_flux(const light *self)
     return v3_scale(l->radiance, PI * PI * l->radius * l->radius);
 }
 
+static vmask disk_emit(const light *self, const light_target *to, vfloat s, vfloat t, vfloat u,
+                       vfloat v, vmask active, vlight_ray *out)
+{
+    const disk_light *l = (const disk_light *)self;
+    (void)to;
+    vfloat x, y;
+    vsquare_to_disk(s, t, &x, &y);
+    vvec3 off = vadd(vscale(vspread(l->u), l->radius * x), vscale(vspread(l->v), l->radius * y));
+
+    out->origin    = vkeep3(active, vadd(vspread(l->centre), off));
+    out->direction = vkeep3(active, vwarp_cosine_about(vspread(l->axis), u, v));
+    out->flux      = vkeep3(active, vspread(disk_flux(self)));
+    return active;
+}
+
 static vec3 disk_peak(const light *self, vec3 *toward)
 {
     const disk_light *l = (const disk_light *)self;
@@ -437,6 +452,7 @@ static const light_type disk_type = { .name       = "disk",
                                       .irradiance = disk_irradiance,
                                       .weight     = disk_weight,
                                       .as_point   = disk_as_point,
+                                      .emit       = disk_emit,
                                       .flux       = disk_flux,
                                       .peak       = disk_peak,
                                       .bounds     = disk_bounds };

@@ -18,8 +18,8 @@
  *     E = (i0 / 2h) ((n . h^)(w + cos(a0 + a1) sin w) + (n . t^) sin(a0 + a1) sin w)
  */
 #include "core/color.h"
-#include "core/packet_math.h"
 #include "core/transform.h"
+#include "core/warp.h"
 #include "lights/light.h"
 
 typedef struct linear_light {
@@ -199,6 +199,26 @@ static vec3 linear_flux(const light *self)
     return v3_scale(((const linear_light *)self)->intensity, (float)(M_PI * M_PI));
 }
 
+/* Of directions by intensity the cosine to the line has the density (2 / pi) sqrt(1 - c^2): that
+ * of a coordinate of an even place in the unit disk; the other one is even in its chord, and tells
+ * the turn about the line. */
+static vmask linear_emit(const light *self, const light_target *to, vfloat s, vfloat t, vfloat u,
+                         vfloat v, vmask active, vlight_ray *out)
+{
+    const linear_light *l = (const linear_light *)self;
+    (void)to, (void)t; /* a line has one dimension */
+    vfloat cos_a, y;
+    vsquare_to_disk(u, v, &cos_a, &y);
+    vfloat chord = vsqrt(vmax((1.0f - cos_a) * (1.0f + cos_a), vsplat(1e-12f)));
+    vfloat turn  = 0.5f * vmin(vmax(y / chord, vsplat(-1.0f)), vsplat(1.0f));
+    vvec3 place  = valong(vspread(l->from), vspread(l->along), s * l->length);
+
+    out->origin    = vkeep3(active, place);
+    out->direction = vkeep3(active, vwarp_about(vspread(l->along), 1.0f - cos_a, turn));
+    out->flux      = vkeep3(active, vspread(linear_flux(self)));
+    return active;
+}
+
 /* Square to the line in all directions: this is one of them. */
 static vec3 linear_peak(const light *self, vec3 *toward)
 {
@@ -225,6 +245,7 @@ static const light_type linear_type = { .name       = "linear",
                                         .irradiance = linear_irradiance,
                                         .weight     = linear_weight,
                                         .as_point   = linear_as_point,
+                                        .emit       = linear_emit,
                                         .flux       = linear_flux,
                                         .peak       = linear_peak,
                                         .bounds     = linear_bounds };

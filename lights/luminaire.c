@@ -81,6 +81,7 @@ light_bounds luminaire_bounds(const light *self)
 
 static const light_type luminaire_point_type = { .name   = "luminaire",
                                                  .sample = point_sample,
+                                                 .emit   = luminaire_emit,
                                                  .flux   = luminaire_flux,
                                                  .peak   = luminaire_peak,
                                                  .bounds = luminaire_bounds };

@@ -10,6 +10,18 @@
 #include "lights/light.h"
 #include "lights/opening.h"
 
+/* The web in cells, for drawing directions: luminaire_emit.c. Ring edges are counted by 1 - cos
+ * of the angle from the nearer pole. */
+typedef struct web_cells {
+    int planes, rings;       /* of cells */
+    const float *plane;      /* rad: planes + 1 edges, all around */
+    const float *low, *wide; /* of each ring: where it begins, to where it ends */
+    const float *candela;    /* planes + 1 of each ring edge */
+    const float *ring_cdf;   /* of rings */
+    const float *plane_cdf;  /* of planes, for each ring */
+    const int32_t *down;     /* of each ring: counted from gamma 0; else from 180 degrees */
+} web_cells;
+
 /* A web as luminaires look it up, whatever their opening. */
 struct luminaire_model {
     double lumens;  /* cd sr: the integral of the web */
@@ -20,6 +32,7 @@ struct luminaire_model {
     float gamma_from, gamma_to;  /* rad: dark outside of them */
     float down_least, down_most; /* cosines of gamma, a rounding apart: dark outside of them */
     const float *error;          /* by direction: luminaire_error.c */
+    web_cells cells;
 };
 
 typedef struct luminaire {
@@ -42,6 +55,13 @@ light_bounds luminaire_bounds(const light *self);
 
 /* What luminaire_as_point needs to know of the web; NULL: memory is out. */
 const float *luminaire_error_table(arena *a, const photometry *web, lux_error *err);
+
+/* In memory of a; false: it is out. */
+bool luminaire_cells_make(arena *a, const photometry *web, web_cells *to, lux_error *err);
+
+/* light.h's emit. */
+vmask luminaire_emit(const light *self, const light_target *to, vfloat s, vfloat t, vfloat u,
+                     vfloat v, vmask active, vlight_ray *out);
 
 /* light.h's as_point. */
 vmask luminaire_as_point(const light *self, const vvec3 *p, vmask active, vlight_sample *out,

@@ -93,5 +93,5 @@ const luminaire_model *luminaire_model_new(arena *a, const photometry *web, lux_
     m->lumens = web->luminaire_lumens;
     find_strongest(m, web);
     m->error = luminaire_error_table(a, web, err);
-    return m->error ? m : NULL;
+    return m->error && luminaire_cells_make(a, web, &m->cells, err) ? m : NULL;
 }

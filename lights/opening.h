@@ -35,6 +35,10 @@ typedef struct opening_type {
 
     /* m^2, A(w). NULL: a line. */
     vfloat (*projected)(const opening *o, const vvec3 *w);
+
+    /* The place from which light leaves along the unit vector w >= 0, from the centre: (s, t) are
+     * even over what is seen against w. */
+    vvec3 (*leave)(const opening *o, const vvec3 *w, vfloat s, vfloat t);
 } opening_type;
 
 struct opening {

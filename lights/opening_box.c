@@ -129,4 +129,23 @@ static vfloat box_projected(const opening *o, const vvec3 *w)
     return 4.0f * (h.y * h.z * vabs(w->x) + h.z * h.x * vabs(w->y) + h.x * h.y * vabs(w->z));
 }
 
-const opening_type opening_box = { .draw = box_draw, .meet = box_meet, .projected = box_projected };
+static vvec3 box_leave(const opening *o, const vvec3 *w, vfloat s, vfloat t)
+{
+    vec3 h       = o->half;
+    vvec3 area   = { h.y * h.z * w->x, h.z * h.x * w->y, h.x * h.y * w->z };
+    vfloat at    = s * (area.x + area.y + area.z);
+    vmask is_x   = at < area.x;
+    vmask is_y   = ~is_x & (at < area.x + area.y);
+    vmask is_z   = ~is_x & ~is_y;
+    vfloat past  = vkeep(~is_x, vselect(is_y, area.x, area.x + area.y));
+    vfloat width = vselect(is_x, area.x, vselect(is_y, area.y, area.z));
+    vfloat even  = vmin((at - past) / width, vsplat(1.0f));
+
+    vfloat a = 2.0f * even - 1.0f, b = 2.0f * t - 1.0f, one = vsplat(1.0f);
+    return (vvec3){ vselect(is_x, one, a) * h.x, vselect(is_y, one, vselect(is_x, a, b)) * h.y,
+                    vselect(is_z, one, b) * h.z };
+}
+
+const opening_type opening_box = {
+    .draw = box_draw, .meet = box_meet, .projected = box_projected, .leave = box_leave
+};

@@ -151,6 +151,32 @@ static vmask cylinder_meet(const opening *o, const vvec3 *q, const vvec3 *w, vma
     return meet_surface(o, &v, *w, active & (v.sum > 0.0f), out);
 }
 
+/* Against w the side is seen within a quarter of a turn of the f that w points to, as (b w_x,
+ * a w_y): in proportion to cos(f - f0). */
+static vvec3 cylinder_leave(const opening *o, const vvec3 *w, vfloat s, vfloat t)
+{
+    float a = o->half.x, b = o->half.y, c = o->half.z;
+    vfloat x = b * w->x, y = a * w->y;
+    vfloat level = vsqrt(x * x + y * y);
+    vfloat side  = 4.0f * c * level;
+    vfloat cap   = (WARP_PI * a * b) * w->z;
+    vfloat at    = s * (side + cap);
+    vmask beside = at < side;
+    vfloat even  = vselect(beside, at / side, (at - side) / cap);
+    even         = vmin(vmax(even, vsplat(0.0f)), vsplat(1.0f));
+
+    vfloat disk_x, disk_y;
+    vsquare_to_disk(vkeep(~beside, even), t, &disk_x, &disk_y);
+    vfloat sin_f = 2.0f * even - 1.0f;
+    vfloat cos_f = vsqrt(vmax(1.0f - sin_f * sin_f, vsplat(0.0f)));
+    vfloat cos_0 = vselect(level > 0.0f, x / level, vsplat(1.0f));
+    vfloat sin_0 = vkeep(level > 0.0f, y / level);
+    return (vvec3){ a * vselect(beside, cos_0 * cos_f - sin_0 * sin_f, disk_x),
+                    b * vselect(beside, sin_0 * cos_f + cos_0 * sin_f, disk_y),
+                    c * vselect(beside, 2.0f * t - 1.0f, vsplat(1.0f)) };
+}
+
 const opening_type opening_cylinder = { .draw      = cylinder_draw,
                                         .meet      = cylinder_meet,
-                                        .projected = cylinder_projected };
+                                        .projected = cylinder_projected,
+                                        .leave     = cylinder_leave };

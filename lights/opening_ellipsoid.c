@@ -79,6 +79,16 @@ static vfloat ellipsoid_projected(const opening *o, const vvec3 *w)
     return (3.14159265f * h.x * h.y * h.z) * vlength(divide(*w, h));
 }
 
+/* Even over the ball as seen against w': what is even stays so when all is stretched. */
+static vvec3 ellipsoid_leave(const opening *o, const vvec3 *w, vfloat s, vfloat t)
+{
+    vec3 h      = o->half;
+    vvec3 axis  = vnormalize(divide(*w, h));
+    vvec3 place = vwarp_cosine_about(axis, s, t);
+    return (vvec3){ place.x * h.x, place.y * h.y, place.z * h.z };
+}
+
 const opening_type opening_ellipsoid = { .draw      = ellipsoid_draw,
                                          .meet      = ellipsoid_meet,
-                                         .projected = ellipsoid_projected };
+                                         .projected = ellipsoid_projected,
+                                         .leave     = ellipsoid_leave };

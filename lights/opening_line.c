@@ -37,4 +37,10 @@ static vmask line_draw(const opening *o, const vvec3 *q, vfloat s, vfloat t, vma
     return active & (dist2 > 0.0f) & (out->spread > 0.0f);
 }
 
-const opening_type opening_line = { .draw = line_draw };
+static vvec3 line_leave(const opening *o, const vvec3 *w, vfloat s, vfloat t)
+{
+    (void)w, (void)t;
+    return (vvec3){ (2.0f * s - 1.0f) * o->half.x, vsplat(0.0f), vsplat(0.0f) };
+}
+
+const opening_type opening_line = { .draw = line_draw, .leave = line_leave };

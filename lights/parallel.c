@@ -8,6 +8,7 @@
  * and what stands before the disk shadows it, but nothing behind. It carries pi radius^2 E watts.
  */
 #include "core/color.h"
+#include "core/packet_math.h"
 #include "lights/light.h"
 
 typedef struct parallel_light {
@@ -51,6 +52,39 @@ static vmask beam_sample(const light *self, const vvec3 *p, vfloat s, vfloat t, 
     return lit;
 }
 
+/* From an even place of the disk of that radius about `centre`, square to the light. */
+static vmask emit_from_disk(const parallel_light *l, vvec3 centre, float radius, vfloat s, vfloat t,
+                            vmask active, vlight_ray *out)
+{
+    vvec3 u, v, toward = vspread(l->toward);
+    vfloat x, y;
+    vframe(toward, &u, &v);
+    vsquare_to_disk(s, t, &x, &y);
+    vvec3 off = vadd(vscale(u, radius * x), vscale(v, radius * y));
+
+    out->origin    = vkeep3(active, vadd(centre, off));
+    out->direction = vkeep3(active, vneg(toward));
+    out->flux = vkeep3(active, vspread(v3_scale(l->irradiance, (float)M_PI * radius * radius)));
+    return active;
+}
+
+static vmask parallel_emit(const light *self, const light_target *to, vfloat s, vfloat t, vfloat u,
+                           vfloat v, vmask active, vlight_ray *out)
+{
+    const parallel_light *l = (const parallel_light *)self;
+    (void)u, (void)v; /* there is but one direction */
+    vvec3 before = valong(vspread(to->centre), vspread(l->toward), vsplat(to->radius));
+    return emit_from_disk(l, before, to->radius, s, t, active, out);
+}
+
+static vmask beam_emit(const light *self, const light_target *to, vfloat s, vfloat t, vfloat u,
+                       vfloat v, vmask active, vlight_ray *out)
+{
+    const parallel_light *l = (const parallel_light *)self;
+    (void)to, (void)u, (void)v;
+    return emit_from_disk(l, vspread(l->at), l->radius, s, t, active, out);
+}
+
 static vec3 parallel_flux(const light *self)
 {
     (void)self;
@@ -74,13 +108,17 @@ static light_bounds parallel_bounds(const light *self)
                            .far        = true };
 }
 
-static const light_type parallel_type = {
-    .name = "parallel", .sample = parallel_sample, .flux = parallel_flux, .bounds = parallel_bounds
-};
+static const light_type parallel_type = { .name   = "parallel",
+                                          .sample = parallel_sample,
+                                          .emit   = parallel_emit,
+                                          .flux   = parallel_flux,
+                                          .bounds = parallel_bounds };
 
-static const light_type beam_type = {
-    .name = "parallel", .sample = beam_sample, .flux = beam_flux, .bounds = parallel_bounds
-};
+static const light_type beam_type = { .name   = "parallel",
+                                      .sample = beam_sample,
+                                      .emit   = beam_emit,
+                                      .flux   = beam_flux,
+                                      .bounds = parallel_bounds };
 
 const light *light_parallel(arena *a, const parallel_desc *d, lux_error *err)
 {

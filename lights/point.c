@@ -3,6 +3,7 @@
  *     E = I / d^2        [W/m^2], I in W/sr, d in m, on a surface facing the light
  */
 #include "core/color.h"
+#include "core/warp.h"
 #include "lights/light.h"
 
 typedef struct point_light {
@@ -29,6 +30,17 @@ static vmask point_sample(const light *self, const vvec3 *p, vfloat s, vfloat t,
     return lit;
 }
 
+static vmask point_emit(const light *self, const light_target *to, vfloat s, vfloat t, vfloat u,
+                        vfloat v, vmask active, vlight_ray *out)
+{
+    const point_light *l = (const point_light *)self;
+    (void)to, (void)s, (void)t;
+    out->origin    = vkeep3(active, vspread(l->position));
+    out->direction = vkeep3(active, vwarp_sphere(u, v));
+    out->flux      = vkeep3(active, vspread(v3_scale(l->intensity, 4.0f * (float)M_PI)));
+    return active;
+}
+
 static vec3 point_flux(const light *self)
 {
     return v3_scale(((const point_light *)self)->intensity, 4.0f * (float)M_PI);
@@ -45,9 +57,11 @@ static light_bounds point_bounds(const light *self)
                            .peak       = rgb_luminance(l->intensity) };
 }
 
-static const light_type point_type = {
-    .name = "point", .sample = point_sample, .flux = point_flux, .bounds = point_bounds
-};
+static const light_type point_type = { .name   = "point",
+                                       .sample = point_sample,
+                                       .emit   = point_emit,
+                                       .flux   = point_flux,
+                                       .bounds = point_bounds };
 
 const light *light_point(arena *a, const point_desc *d, lux_error *err)
 {

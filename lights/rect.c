@@ -245,6 +245,21 @@ static vec3 rect_flux(const light *self)
     return v3_scale(l->radiance, l->shape.area * (float)M_PI);
 }
 
+static vmask rect_emit(const light *self, const light_target *to, vfloat s, vfloat t, vfloat u,
+                       vfloat v, vmask active, vlight_ray *out)
+{
+    const rect_light *l = (const rect_light *)self;
+    const polygon *g    = &l->shape;
+    (void)to;
+    vvec3 place = { vlerp(vsplat(g->x[0]), vsplat(g->x[2]), s),
+                    vlerp(vsplat(g->y[0]), vsplat(g->y[2]), t), vsplat(0.0f) };
+
+    out->origin    = vkeep3(active, vadd(vspread(g->centre), vpolygon_turn_back(g, place)));
+    out->direction = vkeep3(active, vpolygon_turn_back(g, vwarp_cosine(u, v)));
+    out->flux      = vkeep3(active, vspread(rect_flux(self)));
+    return active;
+}
+
 static light_bounds rect_bounds(const light *self)
 {
     const rect_light *l = (const rect_light *)self;
@@ -260,6 +275,7 @@ static const light_type rect_type = { .name       = "rect",
                                       .irradiance = rect_irradiance,
                                       .weight     = rect_weight,
                                       .as_point   = rect_as_point,
+                                      .emit       = rect_emit,
                                       .flux       = rect_flux,
                                       .peak       = rect_peak,
                                       .bounds     = rect_bounds };

@@ -203,6 +203,27 @@ static vec3 triangle_flux(const light *self)
     return v3_scale(l->radiance, l->shape.area * (float)(2.0 * M_PI));
 }
 
+/* u picks the side, too. */
+static vmask triangle_emit(const light *self, const light_target *to, vfloat s, vfloat t, vfloat u,
+                           vfloat v, vmask active, vlight_ray *out)
+{
+    const triangle_light *l = (const triangle_light *)self;
+    const polygon *g        = &l->shape;
+    (void)to;
+    vfloat b, c;
+    vwarp_triangle(s, t, &b, &c);
+    vvec3 place = { g->x[0] + b * (g->x[1] - g->x[0]) + c * (g->x[2] - g->x[0]),
+                    g->y[0] + b * (g->y[1] - g->y[0]) + c * (g->y[2] - g->y[0]), vsplat(0.0f) };
+    vmask back  = u >= 0.5f;
+    vvec3 way   = vwarp_cosine(2.0f * u - vkeep(back, vsplat(1.0f)), v);
+    way.z       = vselect(back, -way.z, way.z);
+
+    out->origin    = vkeep3(active, vadd(vspread(g->centre), vpolygon_turn_back(g, place)));
+    out->direction = vkeep3(active, vpolygon_turn_back(g, way));
+    out->flux      = vkeep3(active, vspread(triangle_flux(self)));
+    return active;
+}
+
 /* Hemispheres about both of its normals, and so about all directions. */
 static light_bounds triangle_bounds(const light *self)
 {
@@ -219,6 +240,7 @@ static const light_type triangle_type = { .name       = "triangle",
                                           .irradiance = triangle_irradiance,
                                           .weight     = triangle_weight,
                                           .as_point   = triangle_as_point,
+                                          .emit       = triangle_emit,
                                           .flux       = triangle_flux,
                                           .peak       = triangle_peak,
                                           .bounds     = triangle_bounds };

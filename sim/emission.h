@@ -4,8 +4,12 @@
  * its flux onto the scene), then place and direction as the source shines. Daylight sets out just
  * before the scene; where portals are all that it comes in by, from places on these. The weights
  * are unbiased: the fluxes of N particles, each divided by N, add up to all light, and so they do
- * for each source. In a layered scene light is undimmed, and each group has an equal share of the
- * particles.
+ * for each source.
+ *
+ * Light is as scene.lights and scene.skies hold it: neither scene_light.dimming nor
+ * scene.glow_dimming nor scene_maintenance() is applied, which is for who adds particles up, as it
+ * is in paths. In a scene that is not layered they say how many particles a source gets, and one
+ * that is dimmed to nothing gets none; in a layered one each group has an equal share of them.
  */
 #ifndef SIM_EMISSION_H
 #define SIM_EMISSION_H
@@ -18,11 +22,14 @@ typedef struct emission emission;
 /* NULL, with *err, if memory is out. A scene without light has an emission that draws nothing. */
 const emission *emission_new(arena *a, const scene *s, lux_error *err);
 
-/* W, of all sources: as luminance. */
+/* W, of all sources: as luminance; of skies to the accuracy of a table. */
 double emission_flux(const emission *e);
 
+/* W, as luminance: light that is left out, of glowing surfaces with textures (scene.glow_watts). */
+double emission_missing(const emission *e);
+
 typedef struct vparticle {
-    vray ray;    /* where it begins and goes; ends at infinity */
+    vray ray;    /* where it begins (a little off the lamp) and goes; ends at infinity */
     vrgb flux;   /* W, the density divided out */
     vint source; /* of scene.lights, lamps, suns, emitters; -1 - i: of scene.skies[i] */
     vint group;  /* of scene.groups */

@@ -15,7 +15,6 @@
 
 #include "core/distribution.h"
 #include "core/warp.h"
-#include "sky/brightness.h"
 
 struct dome {
     int columns, rows;
@@ -123,10 +122,9 @@ static void drop_faint(double *weights, int count)
         weights[i] = weights[i] > NOTHING * sum / count ? weights[i] : 0.0;
 }
 
-static void fill(dome *d, const brightness *b, double *weights)
+static void fill(dome *d, const brightness *b, double common, double *weights)
 {
-    const double common = common_part(b);
-    double *of_rows     = weights + d->columns;
+    double *of_rows = weights + d->columns;
     for (int j = 0; j < d->rows; j++) {
         const float *row = b->luminance + (size_t)j * (size_t)b->columns;
         float *cdf       = d->column_cdf + (size_t)j * ((size_t)d->columns + 1);
@@ -160,18 +158,30 @@ static dome *room_for(arena *a, int columns, int rows, lux_error *err)
     return d;
 }
 
-const dome *dome_new(arena *a, const sky *const *skies, int count, lux_error *err)
+/* common: W/(sr m^2), taken off all cells. */
+static const dome *make(arena *a, const brightness *b, double common, lux_error *err)
 {
     arena scratch   = { 0 };
-    brightness b    = { 0 };
-    dome *d         = NULL;
-    double *weights = NULL;
-    if (brightness_of(&scratch, &b, skies, count, err))
-        weights = arena_array(&scratch, double, (size_t)b.columns + (size_t)b.rows, err);
-    if (weights)
-        d = room_for(a, b.columns, b.rows, err);
+    double *weights = arena_array(&scratch, double, (size_t)b->columns + (size_t)b->rows, err);
+    dome *d         = weights ? room_for(a, b->columns, b->rows, err) : NULL;
     if (d)
-        fill(d, &b, weights);
+        fill(d, b, common, weights);
     arena_clear(&scratch);
     return d;
+}
+
+const dome *dome_new(arena *a, const sky *const *skies, int count, lux_error *err)
+{
+    arena scratch = { 0 };
+    brightness b  = { 0 };
+    const dome *d = NULL;
+    if (brightness_of(&scratch, &b, skies, count, err))
+        d = make(a, &b, common_part(&b), err);
+    arena_clear(&scratch);
+    return d;
+}
+
+const dome *dome_of_table(arena *a, const brightness *b, lux_error *err)
+{
+    return make(a, b, 0.0, err);
 }

@@ -11,12 +11,15 @@
 #define SKY_DOME_H
 
 #include "core/packet.h"
-#include "sky/sky.h"
+#include "sky/brightness.h"
 
 typedef struct dome dome;
 
 /* Skies: count >= 1; they are not needed afterwards. NULL, with *err, without memory. */
 const dome *dome_new(arena *a, const sky *const *skies, int count, lux_error *err);
+
+/* By a table, nothing taken off: for who finds light in no other way. */
+const dome *dome_of_table(arena *a, const brightness *b, lux_error *err);
 
 /* A unit direction and its density, 1/sr, for (s, t) in [0,1)^2: > 0 and finite. */
 vvec3 dome_sample(const dome *d, vfloat s, vfloat t, vmask active, vfloat *pdf);

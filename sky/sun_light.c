@@ -17,7 +17,7 @@
 #include "sky/sun_light.h"
 
 #include "core/color.h"
-#include "core/packet_math.h"
+#include "core/warp.h"
 
 #include <math.h>
 
@@ -125,6 +125,27 @@ static vmask sun_as_point(const light *self, const vvec3 *p, vmask active, vligh
     return active;
 }
 
+/* Rays of one direction w carry L pi r^2 dw through the target's sphere. */
+static vmask sun_emit(const light *self, const light_target *to, vfloat s, vfloat t, vfloat u,
+                      vfloat v, vmask active, vlight_ray *out)
+{
+    const sun_light *l = (const sun_light *)self;
+    float r            = to->radius;
+    vlight_sample from;
+    sun_sample(self, NULL, u, v, active, &from);
+
+    vvec3 across, up;
+    vfloat x, y;
+    vframe(from.wi, &across, &up);
+    vsquare_to_disk(s, t, &x, &y);
+    vvec3 off = vadd(vadd(vscale(across, x), vscale(up, y)), from.wi);
+
+    out->origin    = vkeep3(active, valong(vspread(to->centre), off, vsplat(r)));
+    out->direction = vneg(from.wi);
+    out->flux = vscale(vspread(l->radiance), vkeep(active, vsplat(l->one_pdf * WARP_PI * r * r)));
+    return active;
+}
+
 static vec3 sun_flux(const light *self)
 {
     (void)self;
@@ -147,6 +168,7 @@ static const light_type sun_type = { .name       = "sun",
                                      .irradiance = sun_irradiance,
                                      .weight     = sun_weight,
                                      .as_point   = sun_as_point,
+                                     .emit       = sun_emit,
                                      .flux       = sun_flux,
                                      .bounds     = sun_bounds };
 

@@ -1,9 +1,10 @@
 /* tests/one_lane_dome.c -- dome.c for one lane: see one_lane_sky.h. */
 #undef PACKET_WIDTH
 #define PACKET_WIDTH 1
-#define dome_sample  one_lane_draw_dome /* beside the library's own */
-#define dome_pdf     one_lane_density_dome
-#define dome_new     one_lane_dome_new
+#define dome_sample   one_lane_draw_dome /* beside the library's own */
+#define dome_pdf      one_lane_density_dome
+#define dome_new      one_lane_dome_new
+#define dome_of_table one_lane_dome_of_table
 #include "sky/dome.c"
 #include "tests/one_lane_sky.h"
 

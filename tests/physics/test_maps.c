@@ -82,7 +82,7 @@ static void cube(double rho, double tolerance)
     lab_open(&l);
     char text[256];
     snprintf(text, sizeof text,
-             "room: {size: [4, 4, 4], reflectance: %g}\n"
+             "lux4: 1\nroom: {size: [4, 4, 4], reflectance: %g}\n"
              "lights: [{type: point, at: [2, 2, 2], lumens: 10000}]\n",
              rho);
     const scene *s            = lab_scene(&l, text);

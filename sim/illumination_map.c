@@ -19,6 +19,7 @@ enum {
     LEAST_CHUNKS   = 4,  /* of a set */
     MOST_CHUNKS    = 1 << 12,
     CELL_PARTICLES = 512, /* that a cell gets at most, where memory allows */
+    FEWEST_PARTICLES = 32, /* that a sheet is to get to have cells */
 };
 static const double most_bytes   = 768e6; /* of values while they are added up */
 static const double gather_share = 1.0 / 3.0; /* of the accuracy: the maps' noise in a gather */
@@ -64,6 +65,7 @@ static void add_balance(map_balance *to, const map_balance *b)
         to->emitted[c] += b->emitted[c];
         to->absorbed[c] += b->absorbed[c];
         to->escaped[c] += b->escaped[c];
+        to->unplaced[c] += b->unplaced[c];
     }
     to->rays += b->rays;
     to->way2 += b->way2;
@@ -284,6 +286,8 @@ static bool find_cells(arena *a, map_run *r, map_list *marks, uint32_t *chunks, 
     g.scale      = all / ((double)r->first * MAP_BATCH);
     g.most       = (size_t)fmax(1.0, most_bytes / (bytes + sizeof(map_node)));
     g.least      = fmax(CELL_PARTICLES, 4.0 * g.scale * (double)g.mark_count / (double)g.most);
+    /* Focused light that no cell takes is lost; other light paths find by themselves */
+    g.fewest = m->kind == MAP_FOCUSED ? 1.0 : FEWEST_PARTICLES;
     return map_cells_grow(a, &g, &m->cells, err);
 }
 
@@ -332,7 +336,8 @@ static void note_figures(map_run *r, double begun)
                                 .seconds   = clock_seconds() - begun,
                                 .emitted   = watts(r->all.emitted, particles),
                                 .absorbed  = watts(r->all.absorbed, particles),
-                                .escaped   = watts(r->all.escaped, particles) };
+                                .escaped   = watts(r->all.escaped, particles),
+                                .unplaced  = watts(r->all.unplaced, particles) };
 }
 
 const illumination_map *illumination_map_new(arena *a, const scene *s, const map_options *o,
@@ -354,6 +359,7 @@ const illumination_map *illumination_map_new(arena *a, const scene *s, const map
     bool done = make_map(a, &scratch, r, &marks, err);
     if (done)
         note_figures(r, begun);
+    done = done && map_prints(s, o, m->print, err);
     for (int i = 0; i < WAVE_CHUNKS; i++)
         map_list_free(&r->lists[i]);
     map_list_free(&marks);

@@ -511,7 +511,7 @@ bool map_cells_grow(arena *a, const map_growth *g, map_cells *c, lux_error *err)
     bool done = true;
     for (size_t from = 0, to; done && from < g->mark_count; from = to) {
         to = end_of_sheet(g, from);
-        if (g->scale * (double)(to - from) >= fewest)
+        if (g->scale * (double)(to - from) >= g->fewest)
             done = grow_sheet(&w, c, from, to);
     }
     c->node_count = (int32_t)w.nodes.count;

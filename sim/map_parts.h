@@ -68,6 +68,7 @@ typedef struct map_growth {
     size_t mark_count;
     double scale; /* particles to come, of all maps, for one pilot */
     double least; /* of those to come, that a cell of a large one is to get */
+    double fewest; /* of those to come, that a sheet must have to get cells */
     size_t most;  /* cells */
 } map_growth;
 
@@ -122,7 +123,7 @@ void *map_list_add(map_list *l); /* NULL: memory is out */
 void map_list_free(map_list *l);
 
 typedef struct map_balance {
-    double emitted[3], absorbed[3], escaped[3], dropped[3];
+    double emitted[3], absorbed[3], escaped[3], unplaced[3];
     int64_t rays;
     double way2; /* m^2: sum over matt bounces of the distance squared, and how many */
     int64_t ways;
@@ -158,6 +159,9 @@ void map_watch_pass(const map_watch *w, const vray *ray, vmask active, const vrg
 
 /* ---- the map --------------------------------------------------------------------------------- */
 
+/* By what a scene's light is told from that of others, for files. */
+enum { PRINT_GEOMETRY, PRINT_MATERIALS, PRINT_LIGHTS, PRINT_RUN, PRINTS };
+
 struct illumination_map {
     const scene *s;
     map_light kind;
@@ -168,6 +172,7 @@ struct illumination_map {
     float *values; /* W/m^2: of each bin, slot, set, 3 */
     float *dimming; /* of each group; NAN: its lamps differ */
     map_figures figures;
+    uint64_t print[PRINTS];
 };
 
 static inline size_t map_bins(const illumination_map *m)
@@ -179,8 +184,7 @@ static inline size_t map_value_at(const illumination_map *m, size_t bin, int slo
     return ((bin * (size_t)m->slots + (size_t)slot) * SCRAMBLES + (size_t)set) * 3;
 }
 
-/* By what a scene's light is told from that of others, for map_file.c. */
-enum { PRINT_GEOMETRY, PRINT_MATERIALS, PRINT_LIGHTS, PRINT_RUN, PRINTS };
+bool map_prints(const scene *s, const map_options *o, uint64_t print[PRINTS], lux_error *err);
 
 /* Of each group: what all of its light is dimmed to. */
 bool map_dimmings(arena *a, const scene *s, float **out, lux_error *err);

@@ -284,7 +284,13 @@ static void lay_down(map_tracer *t, int i, int32_t front, vec3 flux)
         return;
     }
     int32_t bin = map_cells_find(job->cells, world_mesh(job->s->world, mark.instance), &mark);
-    map_deposit *to = bin < 0 ? NULL : map_list_add(t->out);
+    if (bin < 0) {
+        const float missed[3] = { flux.x, flux.y, flux.z };
+        for (int c = 0; c < 3; c++)
+            t->balance->unplaced[c] += (double)missed[c];
+        return;
+    }
+    map_deposit *to = map_list_add(t->out);
     if (to)
         *to = (map_deposit){ bin, t->group[i], t->carried[DIMMING][i], flux };
 }

@@ -12,16 +12,16 @@
 #include <string.h>
 
 enum {
-    WAVE_CHUNKS    = 4 * SCRAMBLES,
-    FIRST_PILOTS   = 1 << 16,
-    MOST_PILOTS    = 1 << 18,
-    PILOT_SHARE    = 8,  /* one pilot for so many particles */
-    LEAST_CHUNKS   = 4,  /* of a set */
-    MOST_CHUNKS    = 1 << 12,
-    CELL_PARTICLES = 512, /* that a cell gets at most, where memory allows */
-    FEWEST_PARTICLES = 32, /* that a sheet is to get to have cells */
+    WAVE_CHUNKS      = 4 * SCRAMBLES,
+    FIRST_PILOTS     = 1 << 16,
+    MOST_PILOTS      = 1 << 18,
+    PILOT_SHARE      = 8, /* one pilot for so many particles */
+    LEAST_CHUNKS     = 4, /* of a set */
+    MOST_CHUNKS      = 1 << 12,
+    CELL_PARTICLES   = 512, /* that a cell gets at most, where memory allows */
+    FEWEST_PARTICLES = 32,  /* that a sheet is to get to have cells */
 };
-static const double most_bytes   = 768e6; /* of values while they are added up */
+static const double most_bytes   = 768e6;     /* of values while they are added up */
 static const double gather_share = 1.0 / 3.0; /* of the accuracy: the maps' noise in a gather */
 
 typedef struct map_run {
@@ -112,8 +112,8 @@ static bool send_pilots(map_run *r, size_t count, map_list *marks, lux_error *er
 }
 
 /* How many particles of all sets the accuracy calls for. Light is gathered from about the square of
- * how far one sees, pi d^2, of all the area A that is lit. A gather that weighs the n deposits there
- * unlike each other, by about as much again as they differ among themselves, has the variance
+ * how far one sees, pi d^2, of all the area A that is lit. A gather that weighs the n deposits
+ * there unlike each other, by about as much again as they differ among themselves, has the variance
  * 2 (sum w^2 / (sum w)^2) = 2 c / n of its square:
  *
  *     n = 2 c / (accuracy / 3)^2          on pi d^2, hence n A / (pi d^2) in all
@@ -293,9 +293,9 @@ static bool find_cells(arena *a, map_run *r, map_list *marks, uint32_t *chunks, 
 
 static bool make_map(arena *a, arena *scratch, map_run *r, map_list *marks, lux_error *err)
 {
-    illumination_map *m         = r->m;
-    const map_sensors *s        = r->o->sensors;
-    uint32_t chunks             = 0;
+    illumination_map *m  = r->m;
+    const map_sensors *s = r->o->sensors;
+    uint32_t chunks      = 0;
     if (!prepare(a, scratch, r, err) || !find_cells(a, r, marks, &chunks, err))
         return false;
     map_list_free(marks);

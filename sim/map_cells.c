@@ -11,13 +11,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double differ_sigmas  = 3.0;
-static const double fewest         = 32.0;  /* particles to come: a cell of fewer is not divided */
-static const double few_that_tell  = 12.0;  /* pilots of a half: of fewer, noise is not known */
-static const double flat_cosine    = 0.94;  /* of a cell's normals with their mean: 20 degrees */
-static const double walled_size    = 0.02;  /* m: cells under walls are divided so far, */
-static const double walled_share   = 1.0 / 64.0; /* or to this share of the piece's width */
-static const double least_size     = 1e-3; /* m: no cell is divided below */
+static const double differ_sigmas = 3.0;
+static const double fewest        = 32.0; /* particles to come: a cell of fewer is not divided */
+static const double few_that_tell = 12.0; /* pilots of a half: of fewer, noise is not known */
+static const double flat_cosine   = 0.94; /* of a cell's normals with their mean: 20 degrees */
+static const double walled_size   = 0.02; /* m: cells under walls are divided so far, */
+static const double walled_share  = 1.0 / 64.0; /* or to this share of the piece's width */
+static const double least_size    = 1e-3;       /* m: no cell is divided below */
 
 typedef struct part {
     int32_t node;
@@ -90,7 +90,7 @@ static dvec3 middle_of(const dvec3 c[3])
 static void halve(dvec3 c[3], int edge, int half)
 {
     int i = edge, j = (edge + 1) % 3;
-    dvec3 m            = d3_scale(d3_add(c[i], c[j]), 0.5);
+    dvec3 m         = d3_scale(d3_add(c[i], c[j]), 0.5);
     c[half ? i : j] = m;
 }
 
@@ -114,11 +114,11 @@ static void outline_single(const part *p, double pull, map_outline *o)
 {
     dvec3 middle = middle_of(p->corner);
     for (int i = 0; i < 3; i++) {
-        dvec3 q      = d3_add(p->corner[i], d3_scale(d3_sub(middle, p->corner[i]), pull));
-        dvec3 next   = p->corner[(i + 1) % 3];
-        dvec3 edge   = d3_scale(d3_add(p->corner[i], next), 0.5);
-        o->ring[i]   = q;
-        o->feet[i]   = q;
+        dvec3 q        = d3_add(p->corner[i], d3_scale(d3_sub(middle, p->corner[i]), pull));
+        dvec3 next     = p->corner[(i + 1) % 3];
+        dvec3 edge     = d3_scale(d3_add(p->corner[i], next), 0.5);
+        o->ring[i]     = q;
+        o->feet[i]     = q;
         o->feet[3 + i] = d3_add(edge, d3_scale(d3_sub(middle, edge), pull));
         o->feet[6 + i] = d3_scale(d3_add(p->corner[i], middle), 0.5);
     }
@@ -142,8 +142,8 @@ static void outline_many(const grower *w, const part *p, double pull, map_outlin
         for (int i = 0; i < 3; i++)
             for (int k = 0; k < MOST_RING; k++) {
                 double turn = 2.0 * M_PI * k / MOST_RING;
-                double out  = cos(turn) * d3_dot(c[i], d3_from(u)) +
-                             sin(turn) * d3_dot(c[i], d3_from(v));
+                double out =
+                    cos(turn) * d3_dot(c[i], d3_from(u)) + sin(turn) * d3_dot(c[i], d3_from(v));
                 if (out > farthest[k])
                     farthest[k] = out, o->ring[k] = c[i];
             }
@@ -331,9 +331,10 @@ static verdict judge(grower *w, const part *p, int32_t split)
 {
     double size     = size_of(w, p);
     double expected = w->g->scale * (double)(p->to - p->from);
-    bool can = expected >= fewest && (!p->single || size > least_size) && w->nodes.count < w->g->most;
-    if (can && (expected > w->g->least ||
-                (expected > 0.25 * w->g->least && light_differs(w, p, split))))
+    bool can =
+        expected >= fewest && (!p->single || size > least_size) && w->nodes.count < w->g->most;
+    if (can &&
+        (expected > w->g->least || (expected > 0.25 * w->g->least && light_differs(w, p, split))))
         return VERDICT_DIVIDE;
 
     map_outline o;
@@ -349,8 +350,8 @@ static verdict judge(grower *w, const part *p, int32_t split)
 static bool grow(grower *w, const part *p)
 {
     double longest;
-    int32_t split = p->single ? ~(int32_t)longest_edge(p->corner, &longest)
-                              : split_rank(w->mesh, p->low, p->high);
+    int32_t split             = p->single ? ~(int32_t)longest_edge(p->corner, &longest)
+                                          : split_rank(w->mesh, p->low, p->high);
     node_at(w, p->node)->area = area_of(w, p);
     verdict v                 = judge(w, p, split);
     if (v != VERDICT_DIVIDE) {
@@ -376,13 +377,12 @@ static bool grow(grower *w, const part *p)
 
 static uint32_t slot_of(const map_cells *c, int32_t instance, int32_t piece, int32_t front)
 {
-    uint32_t h = hash_combine_u32(hash_combine_u32((uint32_t)instance, (uint32_t)piece),
-                                  (uint32_t)front);
+    uint32_t h =
+        hash_combine_u32(hash_combine_u32((uint32_t)instance, (uint32_t)piece), (uint32_t)front);
     uint32_t i = h & (c->sheet_room - 1);
     for (;; i = (i + 1) & (c->sheet_room - 1)) {
         const map_sheet *at = &c->sheets[i];
-        if (at->root < 0 ||
-            (at->instance == instance && at->piece == piece && at->front == front))
+        if (at->root < 0 || (at->instance == instance && at->piece == piece && at->front == front))
             return i;
     }
 }
@@ -396,9 +396,8 @@ static part find_sheet(grower *w, const map_cells *c, const map_mark *mark)
     w->mesh        = &c->meshes[world_mesh(s->world, mark->instance)];
     w->place       = world_place(s->world, mark->instance);
     w->mirrors     = transform_determinant(&w->place) < 0.0;
-    part p         = { .low  = w->mesh->first[mark->piece],
-                       .high = w->mesh->first[mark->piece + 1] };
-    p.single       = p.high - p.low == 1;
+    part p   = { .low = w->mesh->first[mark->piece], .high = w->mesh->first[mark->piece + 1] };
+    p.single = p.high - p.low == 1;
     if (p.single)
         triangle_at(w, p.low, p.corner);
     return p;
@@ -471,8 +470,9 @@ static double rounding_of(const scene *s)
 {
     vec3 low, high;
     world_bounds(s->world, &low, &high);
-    float most = fmaxf(fmaxf(fabsf(low.x), fabsf(high.x)),
-                       fmaxf(fmaxf(fabsf(low.y), fabsf(high.y)), fmaxf(fabsf(low.z), fabsf(high.z))));
+    float most =
+        fmaxf(fmaxf(fabsf(low.x), fabsf(high.x)),
+              fmaxf(fmaxf(fabsf(low.y), fabsf(high.y)), fmaxf(fabsf(low.z), fabsf(high.z))));
     return 16.0 * 0x1p-24 * fmax((double)most, 0x1p-6);
 }
 

@@ -88,19 +88,21 @@ static bool print_of_geometry(const scene *s, uint64_t *print, lux_error *err)
 /* What the material does with light that meets it steeply and slanting. */
 static uint64_t print_of_deeds(uint64_t h, const scene *s, int index)
 {
-    static const vec3 ways[] = { { 0.0f, 0.0f, 1.0f }, { 0.6f, 0.0f, 0.8f }, { 0.0f, 0.96f, 0.28f } };
+    static const vec3 ways[] = { { 0.0f, 0.0f, 1.0f },
+                                 { 0.6f, 0.0f, 0.8f },
+                                 { 0.0f, 0.96f, 0.28f } };
     vint which               = vsplat_int(index);
     for (int i = 0; i < 3; i++) {
-        vshading at  = { .wo       = vspread(ways[i]),
-                         .n        = vspread((vec3){ 0, 0, 1 }),
-                         .flat     = vspread((vec3){ 0, 0, 1 }),
-                         .front    = ALL_LANES,
-                         .distance = vsplat(1.0f),
-                         .look     = look_plain(s->materials[index]) };
-        vrgb albedo  = materials_albedo(s->materials, which, &at, ALL_LANES);
-        vrgb passes  = materials_through(s->materials, which, &at, ALL_LANES);
-        h            = fnv_packet(fnv_packet(fnv_packet(h, albedo.x), albedo.y), albedo.z);
-        h            = fnv_packet(fnv_packet(fnv_packet(h, passes.x), passes.y), passes.z);
+        vshading at = { .wo       = vspread(ways[i]),
+                        .n        = vspread((vec3){ 0, 0, 1 }),
+                        .flat     = vspread((vec3){ 0, 0, 1 }),
+                        .front    = ALL_LANES,
+                        .distance = vsplat(1.0f),
+                        .look     = look_plain(s->materials[index]) };
+        vrgb albedo = materials_albedo(s->materials, which, &at, ALL_LANES);
+        vrgb passes = materials_through(s->materials, which, &at, ALL_LANES);
+        h           = fnv_packet(fnv_packet(fnv_packet(h, albedo.x), albedo.y), albedo.z);
+        h           = fnv_packet(fnv_packet(fnv_packet(h, passes.x), passes.y), passes.z);
         for (int k = 0; k < 3; k++) {
             vvec3 wi  = vspread((vec3){ -ways[k].x, ways[k].y, ways[k].z });
             vrgb back = materials_reflect(s->materials, which, &at, &wi, ALL_LANES, NULL);
@@ -290,7 +292,8 @@ static const char *nodes_wrong(const map_cells *c)
         const map_node *n = &c->nodes[i];
         if (!(n->area >= 0.0 && n->area <= 1e30))
             return "a cell's area";
-        if (n->parent < -1 || n->parent >= i || (n->walled != NODE_FREE && n->walled != NODE_WALLED))
+        if (n->parent < -1 || n->parent >= i ||
+            (n->walled != NODE_FREE && n->walled != NODE_WALLED))
             return "a cell";
         if (n->child == 0)
             continue;
@@ -310,8 +313,8 @@ static const char *values_wrong(const illumination_map *m)
     return NULL;
 }
 
-static bool get_arrays(arena *a, map_bytes *b, const map_head *h, illumination_map *m, float *dimmed,
-                       lux_error *err)
+static bool get_arrays(arena *a, map_bytes *b, const map_head *h, illumination_map *m,
+                       float *dimmed, lux_error *err)
 {
     map_cells *c  = &m->cells;
     size_t values = value_count((size_t)h->node_count + 2 * (size_t)h->sensors, h->slots);
@@ -352,8 +355,8 @@ static bool dim_anew(illumination_map *m, uint64_t dimmed, const float *before)
         for (size_t i = 0; i < SCRAMBLES * 3; i++) {
             double sum = 0.0;
             for (int g = 0; g < m->slots - 1; g++)
-                sum += (double)m->dimming[g] *
-                       (double)m->values[map_value_at(m, bin, 1 + g, 0) + i];
+                sum +=
+                    (double)m->dimming[g] * (double)m->values[map_value_at(m, bin, 1 + g, 0) + i];
             m->values[map_value_at(m, bin, 0, 0) + i] = (float)sum;
         }
     return true;
@@ -427,16 +430,15 @@ const illumination_map *illumination_map_read(arena *a, const char *path, const 
         return NULL;
     }
     fclose(file);
-    arena scratch       = { 0 };
-    map_bytes b         = { 0 };
-    b.at                = file_read(&scratch, path, most_file, &b.left, err);
-    illumination_map *m = b.at ? arena_new(a, illumination_map, err) : NULL;
+    arena scratch               = { 0 };
+    map_bytes b                 = { 0 };
+    b.at                        = file_read(&scratch, path, most_file, &b.left, err);
+    illumination_map *m         = b.at ? arena_new(a, illumination_map, err) : NULL;
     const illumination_map *got = NULL;
     if (m) {
-        *m  = (illumination_map){ .s     = s,
-                                  .kind  = o->light,
-                                  .seed  = o->seed,
-                                  .slots = s->layered ? 1 + s->group_count : 1 };
+        *m = (illumination_map){
+            .s = s, .kind = o->light, .seed = o->seed, .slots = s->layered ? 1 + s->group_count : 1
+        };
         got = read_bytes(a, path, &b, m, o, why, err);
     }
     arena_clear(&scratch);

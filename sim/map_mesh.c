@@ -81,7 +81,7 @@ static uint32_t *join_corners(arena *scratch, const world *w, int32_t instance, 
     }
     qsort(place, n, sizeof *place, compare_places);
     for (size_t i = 0; i < n; i++) {
-        bool same = i > 0 && compare_places(&place[i - 1], &place[i]) == 0;
+        bool same           = i > 0 && compare_places(&place[i - 1], &place[i]) == 0;
         id[place[i].corner] = same ? id[place[i - 1].corner] : place[i].corner;
     }
     return id;
@@ -150,8 +150,8 @@ static uint64_t code_of(const dvec3 c[3], dvec3 low, double scale)
 
 static void put_in_order(const world *w, int32_t instance, const int32_t *parent, ranked *to)
 {
-    int32_t n  = world_triangles(w, instance);
-    dvec3 low  = { HUGE_VAL, HUGE_VAL, HUGE_VAL }, high = { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
+    int32_t n = world_triangles(w, instance);
+    dvec3 low = { HUGE_VAL, HUGE_VAL, HUGE_VAL }, high = { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
     dvec3 c[3];
     for (int32_t t = 0; t < n; t++) {
         world_triangle(w, instance, t, c);
@@ -217,9 +217,9 @@ bool map_mesh_new(arena *a, const world *w, int32_t instance, map_mesh *out, lux
 
 bool map_meshes_new(arena *a, const scene *s, map_cells *out, lux_error *err)
 {
-    const world *w  = s->world;
-    uint32_t count  = 0;
-    int32_t placed  = world_instances(w);
+    const world *w = s->world;
+    uint32_t count = 0;
+    int32_t placed = world_instances(w);
     for (int32_t i = 0; i < placed; i++)
         count = world_mesh(w, i) >= count ? world_mesh(w, i) + 1 : count;
     map_mesh *meshes = arena_array(a, map_mesh, (size_t)count + 1, err);

@@ -59,17 +59,17 @@ typedef struct map_mark {
     int32_t instance, triangle, front;
     int32_t piece; /* while growing */
     float u, v;    /* of corners 1 and 2 */
-    float weight; /* W, as luminance */
+    float weight;  /* W, as luminance */
 } map_mark;
 
 typedef struct map_growth {
     const scene *s;
     map_mark *marks;
     size_t mark_count;
-    double scale; /* particles to come, of all maps, for one pilot */
-    double least; /* of those to come, that a cell of a large one is to get */
+    double scale;  /* particles to come, of all maps, for one pilot */
+    double least;  /* of those to come, that a cell of a large one is to get */
     double fewest; /* of those to come, that a sheet must have to get cells */
-    size_t most;  /* cells */
+    size_t most;   /* cells */
 } map_growth;
 
 /* The meshes of the scene in order. */
@@ -79,8 +79,8 @@ bool map_mesh_new(arena *a, const world *w, int32_t instance, map_mesh *out, lux
 /* Grows trees where pilots came. Reorders the marks. */
 bool map_cells_grow(arena *a, const map_growth *g, map_cells *c, lux_error *err);
 
-/* m^2: of the sheets to which pilots came, each by its share of their light: F^2 / sum (F_i^2 / A_i),
- * which of evenly lit ones is their area. Reorders the marks. */
+/* m^2: of the sheets to which pilots came, each by its share of their light: F^2 / sum (F_i^2 /
+ * A_i), which of evenly lit ones is their area. Reorders the marks. */
 double map_lit_area(const map_growth *g, const map_cells *c);
 
 /* The leaf at a place, or -1: no cell, or one without a value. */
@@ -167,9 +167,9 @@ struct illumination_map {
     map_light kind;
     uint32_t seed;
     map_cells cells;
-    int slots;     /* all light, then each group if the scene is layered */
+    int slots; /* all light, then each group if the scene is layered */
     int sensors;
-    float *values; /* W/m^2: of each bin, slot, set, 3 */
+    float *values;  /* W/m^2: of each bin, slot, set, 3 */
     float *dimming; /* of each group; NAN: its lamps differ */
     map_figures figures;
     uint64_t print[PRINTS];

@@ -24,9 +24,9 @@ const map_watch *map_watch_new(arena *a, const map_sensors *m, lux_error *err)
         vec3 u, v, p = m->at[i];
         v3_frame(m->normal[i], &u, &v);
         for (uint32_t c = 0; c < 4; c++) {
-            float s           = c == 1 || c == 2 ? half : -half, t = c >= 2 ? half : -half;
-            places[4 * i + c] = (vec3){ p.x + s * u.x + t * v.x, p.y + s * u.y + t * v.y,
-                                        p.z + s * u.z + t * v.z };
+            float s = c == 1 || c == 2 ? half : -half, t = c >= 2 ? half : -half;
+            places[4 * i + c] =
+                (vec3){ p.x + s * u.x + t * v.x, p.y + s * u.y + t * v.y, p.z + s * u.z + t * v.z };
         }
         for (uint32_t c = 0; c < 6; c++)
             corners[6 * i + c] = 4 * i + around[c];
@@ -37,11 +37,13 @@ const map_watch *map_watch_new(arena *a, const map_sensors *m, lux_error *err)
                                 .position_count = (uint32_t)(4 * n),
                                 .triangle_count = (uint32_t)(2 * n) };
         world_instance once = { .place = TRANSFORM_IDENTITY };
-        w->squares          = world_new(
-            a,
-            &(world_desc){
-                         .meshes = &all, .mesh_count = 1, .instances = &once, .instance_count = 1, .threads = 1 },
-            err);
+        w->squares          = world_new(a,
+                                        &(world_desc){ .meshes         = &all,
+                                                       .mesh_count     = 1,
+                                                       .instances      = &once,
+                                                       .instance_count = 1,
+                                                       .threads        = 1 },
+                                        err);
     }
     arena_clear(&scratch);
     return corners && w->squares ? w : NULL;

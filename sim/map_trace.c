@@ -165,7 +165,7 @@ static void begin(map_tracer *t, uint32_t first, int count)
         vstore_int(t->index + k * LANES, vsigned(index));
         set_out(t, k, &p);
         for (int bits = vbits(drawn); bits; bits &= bits - 1) {
-            int i = __builtin_ctz((unsigned)bits);
+            int i                              = __builtin_ctz((unsigned)bits);
             t->carried[DIMMING][k * LANES + i] = dimming_of(t->job->s, lane(p.source, i));
         }
         add_up(t->balance->emitted, drawn, p.flux);
@@ -304,9 +304,10 @@ static vmask arrive(map_tracer *t, int k)
     vvec3 way      = load3(t, WAY, k);
     scene_shade(s, &hit, &way, wide_spread * hit.distance, active, &t->at[k], &t->shading[k]);
 
-    vint does     = vgather_int(s->material_does, vkeep_int(active, t->at[k].material));
-    vfloat turned = s->smooth || s->textured ? tilt(&t->shading[k], &t->shading[k].wo) : vsplat(1.0f);
-    vrgb flux     = vscale(load3(t, FLUX, k), turned);
+    vint does = vgather_int(s->material_does, vkeep_int(active, t->at[k].material));
+    vfloat turned =
+        s->smooth || s->textured ? tilt(&t->shading[k], &t->shading[k].wo) : vsplat(1.0f);
+    vrgb flux = vscale(load3(t, FLUX, k), turned);
     for (int bits = vbits(active & counts(t, k)); bits; bits &= bits - 1) {
         int j = __builtin_ctz((unsigned)bits), i = k * LANES + j;
         if (is_matt(lane(does, j)))
@@ -350,9 +351,10 @@ static void note_scattered(map_tracer *t, int k, const vscatter *next)
     vint before  = vload_int(t->state + k * LANES);
     vmask single = next->pdf == INFINITY;
     vmask image  = follow_images(t, k, single);
-    vint bits    = vselect_int(single, vsplat_int(SCATTERED), vsplat_int(SCATTERED | SPREAD | FROM_MATT));
-    bits         = vselect_int(image, bits, bits | NO_IMAGE);
-    vint after   = (before & ~FROM_MATT) | bits;
+    vint bits =
+        vselect_int(single, vsplat_int(SCATTERED), vsplat_int(SCATTERED | SPREAD | FROM_MATT));
+    bits       = vselect_int(image, bits, bits | NO_IMAGE);
+    vint after = (before & ~FROM_MATT) | bits;
     vstore_int(t->state + k * LANES, vselect_int(next->straight, before, after));
 }
 

@@ -25,7 +25,7 @@ static void add_ray(wall_rays *r, dvec3 from, dvec3 to)
     if (!(length > 1e-9))
         return;
     vec3 f = d3_to_float(from), w = d3_to_float(d3_scale(along, 1.0 / length));
-    int i  = r->count++;
+    int i         = r->count++;
     r->from[0][i] = f.x, r->from[1][i] = f.y, r->from[2][i] = f.z;
     r->way[0][i] = w.x, r->way[1][i] = w.y, r->way[2][i] = w.z;
     r->reach[i] = (float)length;
@@ -62,8 +62,7 @@ static void draw_rays(const scene *s, const map_outline *o, wall_rays *r)
         add_ray(r, d3_scale(d3_add(a, b), 0.5), d3_scale(d3_add(b, c), 0.5));
     }
     for (int k = 0; k < o->foots; k++)
-        add_ray(r, d3_add(o->feet[k], d3_scale(o->normal, 2.0 * off)),
-                raised(o, o->feet[k], lift));
+        add_ray(r, d3_add(o->feet[k], d3_scale(o->normal, 2.0 * off)), raised(o, o->feet[k], lift));
 }
 
 /* By the first hit: a pane is a wall, too. */
@@ -72,7 +71,7 @@ bool map_is_walled(const scene *s, const map_outline *o)
     wall_rays r = { 0 };
     draw_rays(s, o, &r);
     for (int i = 0; i < r.count; i += LANES) {
-        vray ray = { .origin    = { vload(r.from[0] + i), vload(r.from[1] + i), vload(r.from[2] + i) },
+        vray ray = { .origin = { vload(r.from[0] + i), vload(r.from[1] + i), vload(r.from[2] + i) },
                      .direction = { vload(r.way[0] + i), vload(r.way[1] + i), vload(r.way[2] + i) },
                      .reach     = vload(r.reach + i) };
         vmask active = vlane_index() + i < r.count;

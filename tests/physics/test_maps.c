@@ -37,8 +37,7 @@ static bool lux_at(const scene *s, const illumination_map *m, dvec3 from, dvec3 
     double sum  = 0.0;
     for (int set = 0; set < SCRAMBLES; set++) {
         vrgb e, c;
-        vmask known =
-            illumination_map_look(m, &hit, front, vsplat_int(set), -1, active, &e, &c);
+        vmask known = illumination_map_look(m, &hit, front, vsplat_int(set), -1, active, &e, &c);
         if (!(vbits(known) & 1))
             return false;
         sum += (double)lane(e.x, 0);
@@ -68,8 +67,8 @@ static double mean_of_cube(const scene *s, const illumination_map *m, double siz
             at[(face / 2 + 1) % 3] = u, at[(face / 2 + 2) % 3] = v;
             at[face / 2]  = 0.5 * size;
             way[face / 2] = face % 2 ? 1.0 : -1.0;
-            bool known    = lux_at(s, m, (dvec3){ at[0], at[1], at[2] },
-                                   (dvec3){ way[0], way[1], way[2] }, &e);
+            bool known =
+                lux_at(s, m, (dvec3){ at[0], at[1], at[2] }, (dvec3){ way[0], way[1], way[2] }, &e);
             sum += e;
             count += known;
         }
@@ -176,10 +175,10 @@ TEST(maps_are_the_same_for_one_thread_and_three)
 {
     lab l;
     lab_open(&l);
-    const scene *s = two_rooms(&l);
-    map_options o  = usual;
-    o.particles    = 1 << 16;
-    o.threads      = 1;
+    const scene *s              = two_rooms(&l);
+    map_options o               = usual;
+    o.particles                 = 1 << 16;
+    o.threads                   = 1;
     const illumination_map *one = map_of(&l, s, &o);
     o.threads                   = 3;
     assert_same(one, map_of(&l, s, &o));
@@ -220,9 +219,9 @@ TEST(a_file_gives_back_the_map_or_says_why_not)
     o.seed = 2;
     assert_null(read_map(&l, path, s, &o, &why, &err));
     assert_string_equal(why, "seed, particles or accuracy");
-    o.seed              = 1;
-    const scene *other  = lab_scene(&l, "lux4: 1\nscene: {file: rooms.gltf}\nlights: [{type: "
-                                        "point, at: [1.3, 1.5, 1.7], lumens: 10000}]\n");
+    o.seed             = 1;
+    const scene *other = lab_scene(&l, "lux4: 1\nscene: {file: rooms.gltf}\nlights: [{type: "
+                                       "point, at: [1.3, 1.5, 1.7], lumens: 10000}]\n");
     assert_null(read_map(&l, path, other, &o, &why, &err));
     assert_string_equal(why, "lights");
     lab_close(&l);
@@ -306,18 +305,21 @@ TEST(all_light_that_meets_a_glass_sphere_comes_to_the_walls)
     lab l;
     lab_open(&l);
     write_glass_sphere(&l);
-    const scene *s = lab_scene(&l, "lux4: 1\nroom: {size: [5, 3, 3], reflectance: 0.5}\n"
-                                   "scene: {file: sphere.gltf}\n"
-                                   "lights: [{type: point, at: [1.9, 1.5, 1.5], lumens: 1790}]\n");
-    const vec3 at[]     = { { 2.499f, 0, 0 }, { -2.499f, 0, 0 }, { 0, 1.499f, 0 },
-                            { 0, -1.499f, 0 }, { 0, 0, 1.499f }, { 0, 0, -1.499f } };
-    const vec3 normal[] = { { -1, 0, 0 }, { 1, 0, 0 }, { 0, -1, 0 },
-                            { 0, 1, 0 }, { 0, 0, -1 }, { 0, 0, 1 } };
-    map_sensors walls   = { .count = 6, .at = at, .normal = normal, .side = 12.0f };
-    map_options o       = usual;
-    o.light             = MAP_FOCUSED;
-    o.particles         = 1 << 18;
-    o.sensors           = &walls;
+    const scene *s      = lab_scene(&l, "lux4: 1\nroom: {size: [5, 3, 3], reflectance: 0.5}\n"
+                                             "scene: {file: sphere.gltf}\n"
+                                             "lights: [{type: point, at: [1.9, 1.5, 1.5], lumens: 1790}]\n");
+    const dvec3 place[] = { { 4.999, 1.5, 1.5 }, { 0.001, 1.5, 1.5 }, { 2.5, 2.999, 1.5 },
+                            { 2.5, 0.001, 1.5 }, { 2.5, 1.5, 2.999 }, { 2.5, 1.5, 0.001 } };
+    vec3 at[6];
+    for (int i = 0; i < 6; i++)
+        at[i] = scene_place(s, place[i]);
+    const vec3 normal[]       = { { -1, 0, 0 }, { 1, 0, 0 },  { 0, -1, 0 },
+                                  { 0, 1, 0 },  { 0, 0, -1 }, { 0, 0, 1 } };
+    map_sensors walls         = { .count = 6, .at = at, .normal = normal, .side = 12.0f };
+    map_options o             = usual;
+    o.light                   = MAP_FOCUSED;
+    o.particles               = 1 << 18;
+    o.sensors                 = &walls;
     const illumination_map *m = map_of(&l, s, &o);
     assert_balanced(m);
     double met  = 10.0 * 0.5 * (1.0 - sqrt(1.0 - 25.0 / 36.0));

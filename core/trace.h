@@ -52,6 +52,7 @@ typedef struct placed {
 struct world {
     bsp tree; /* of instances */
     const placed *instances;
+    uint32_t instance_count;
     const solid *meshes;
     triangle_test test;
     bool hollow; /* some instance is */

@@ -165,7 +165,8 @@ static bool make_instances(arena *a, const world_desc *d, world *w, lux_error *e
         uint32_t *items = (uint32_t *)(uintptr_t)w->tree.items;
         for (uint64_t i = 0; i < w->tree.item_count; i++)
             items[i] = numbers[items[i]];
-        w->instances = instances;
+        w->instances      = instances;
+        w->instance_count = d->instance_count;
         w->stats.bytes += d->instance_count * sizeof *instances + w->tree.bytes;
     }
     arena_clear(&scratch);

@@ -58,6 +58,18 @@ typedef struct world_stats {
 } world_stats;
 world_stats world_statistics(const world *w);
 
+/* What there is, for those who look at all of it: instances, the triangles of each, who owns it
+ * (world_instance.owner), and which mesh it places. */
+int32_t world_instances(const world *w);
+int32_t world_triangles(const world *w, int32_t instance);
+int32_t world_owner(const world *w, int32_t instance);
+uint32_t world_mesh(const world *w, int32_t instance);
+
+/* The corners of a triangle, m, in its mesh, which world_place() takes to the world; returns
+ * its material. */
+uint32_t world_triangle(const world *w, int32_t instance, int32_t triangle, dvec3 corner[3]);
+transform world_place(const world *w, int32_t instance);
+
 /* The box around everything, m. Empty (low > high) where there is nothing. */
 void world_bounds(const world *w, vec3 *low, vec3 *high);
 

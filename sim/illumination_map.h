@@ -67,6 +67,7 @@ typedef struct map_figures {
     double seconds;
     vec3 emitted, absorbed, escaped; /* W: what became of the light of the particles */
     vec3 dropped;                    /* W, of particles that were given up: 0 but for no memory */
+    vec3 unplaced; /* W, that came where no cell has a value: sums over all that came there */
 } map_figures;
 map_figures illumination_map_figures(const illumination_map *m);
 

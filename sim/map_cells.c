@@ -12,7 +12,7 @@
 #include <string.h>
 
 static const double differ_sigmas = 3.0;
-static const double fewest        = 32.0; /* particles to come: a cell of fewer is not divided */
+static const double fewest        = 8.0;  /* particles to come: a cell of fewer is not divided */
 static const double few_that_tell = 12.0; /* pilots of a half: of fewer, noise is not known */
 static const double flat_cosine   = 0.94; /* of a cell's normals with their mean: 20 degrees */
 static const double walled_size   = 0.02; /* m: cells under walls are divided so far, */

@@ -9,7 +9,7 @@
 #include <string.h>
 
 static const map_options usual = {
-    .seed = 1, .threads = 2, .particles = 1 << 19, .accuracy = 0.02, .deadline = HUGE_VAL
+    .seed = 1, .threads = 2, .particles = 1 << 18, .accuracy = 0.02, .deadline = HUGE_VAL
 };
 
 static const illumination_map *map_of(lab *l, const scene *s, const map_options *o)
@@ -244,8 +244,8 @@ TEST(damaged_files_are_refused)
     size_t size;
     char *bytes = file_read(&l.a, path, 1 << 30, &size, &err);
     assert_non_null(bytes);
-    for (size_t k = 0; k < 200; k++) {
-        size_t at = k < 120 ? 2 * k : k * (size / 200), kept = k % 7 == 3 ? at : size;
+    for (size_t k = 0; k < 100; k++) {
+        size_t at = k < 60 ? 4 * k : k * (size / 100), kept = k % 7 == 3 ? at : size;
         FILE *f   = fopen(path, "wb");
         bytes[at] = (char)(bytes[at] ^ 0x41);
         fwrite(bytes, 1, kept, f);

@@ -16,6 +16,8 @@ static bool make_bundle(const grid_run_state *g, arena *a, path_bundle *b, lux_e
     const grid_channels *c = &g->channels;
     if (g->layers && !(b->layers = arena_array(a, path_sums, 2 * (size_t)g->layers, err)))
         return false;
+    if (c->classes >= 0 && g->s->mirror_images && !(b->mirrored = arena_new(a, path_sums, err)))
+        return false;
     if (c->outside >= 0 && !(b->outside = arena_new(a, path_sums, err)))
         return false;
     return c->electric < 0 || (b->daylight = arena_new(a, path_sums, err));
@@ -56,9 +58,14 @@ static grid_channels lay_out(const grid_run_state *g)
     grid_channels c  = { .judged   = g->moments  ? g->moments
                                      : g->layers ? LAYERS + g->layers
                                                  : 1,
+                         .classes  = g->moments ? -1 : 0,
                          .outside  = -1,
                          .electric = -1 };
     c.straight       = c.judged;
+    if (c.classes == 0) {
+        c.classes = c.judged;
+        c.straight += LIGHT_CLASSES;
+    }
     c.straight_count = g->moments ? g->moments : 1 + g->layers;
     c.met            = c.straight + c.straight_count;
     c.count          = c.met + 1;
@@ -67,6 +74,29 @@ static grid_channels lay_out(const grid_run_state *g)
     if (both)
         c.electric = c.count++;
     return c;
+}
+
+/* What of the average is of each class. Sensors have samples of their own: their errors are
+ * independent. */
+static void take_classes(const grid_run_state *g, const accuracy_result *got, grid_result *r)
+{
+    size_t n = (size_t)r->sensor_count;
+    for (int c = 0; c < LIGHT_CLASSES; c++) {
+        double sum = 0.0, bounds = 0.0, square = 0.0;
+        for (size_t k = 0; k < n; k++) {
+            if (c == CLASS_DIRECT) {
+                sum += g->known[k];
+                bounds += g->bound[k];
+            }
+            if (!got || g->channels.classes < 0)
+                continue;
+            size_t at = (size_t)(g->channels.classes + c) * n + k;
+            sum += got->mean[at];
+            square += got->half_width[at] * got->half_width[at];
+        }
+        r->classes[c].average    = sum / (double)n;
+        r->classes[c].half_width = (bounds + sqrt(square)) / (double)n;
+    }
 }
 
 static void summarise(grid_result *r)
@@ -191,6 +221,7 @@ static bool found_nothing(const grid_run_state *g, const accuracy_result *got, s
 static void take_results(const grid_run_state *g, const accuracy_result *got, grid_result *r)
 {
     const grid_channels *c = &g->channels;
+    take_classes(g, got, r);
     for (size_t k = 0; k < (size_t)r->sensor_count; k++) {
         double all = mean_of(g, got, SAMPLED, k);
         r->in_doubt += got && found_nothing(g, got, k) && mean_of(g, got, c->met, k) > 0.0;
@@ -225,6 +256,7 @@ static bool sample_rest(arena *a, grid_run_state *g, grid_result *r, lux_error *
     accuracy_desc d = { .items         = r->sensor_count,
                         .channels      = g->channels.count,
                         .judged        = g->channels.judged,
+                        .told          = g->channels.classes >= 0 ? LIGHT_CLASSES : 0,
                         .apart         = g->moments > 0,
                         .exact         = g->known,
                         .bound         = g->bound,

@@ -18,6 +18,7 @@
 enum { SAMPLED, FULL, LAYERS };
 typedef struct grid_channels {
     int judged;
+    int classes; /* LIGHT_CLASSES, of all as dimmed; -1: of a series not asked for */
     int straight, straight_count;
     int met;      /* what sees a reflecting surface */
     int outside;  /* -1: not asked for; so are the next */

@@ -249,7 +249,15 @@ static void take_sample(const grid_run_state *g, thread_scratch *w, int i, float
     if (w->sun[i] >= 0)
         add_straight(g, w, scene_lamp_count(g->s) + w->sun[i], w->sun_e[i], &straight);
     float reflected = lux_of(&b->indirect, i);
-    put(g, w, i, straight + reflected, straight, values);
+    float mirrored  = b->mirrored ? lux_of(b->mirrored, i) : 0.0f;
+    float focused   = g->focused ? focused_at(g, i, ids) : 0.0f;
+    put(g, w, i, straight + reflected + focused, straight, values);
+    if (c->classes >= 0) {
+        values[(c->classes + CLASS_DIRECT) * BUNDLE + i]    = straight;
+        values[(c->classes + CLASS_REFLECTED) * BUNDLE + i] = reflected - mirrored;
+        values[(c->classes + CLASS_MIRRORED) * BUNDLE + i]  = mirrored;
+        values[(c->classes + CLASS_FOCUSED) * BUNDLE + i]   = focused;
+    }
     values[c->met * BUNDLE + i] = b->met[i];
     if (c->outside >= 0)
         values[c->outside * BUNDLE + i] = lux_of(b->outside, i);

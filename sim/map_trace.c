@@ -49,6 +49,7 @@ struct map_tracer {
     map_list *out;
     map_balance *balance;
 
+    int32_t image[MAP_BATCH]; /* mirrors since it set out (mirrors.h); -1: it is no image */
     int32_t index[MAP_BATCH], group[MAP_BATCH], spare[MAP_BATCH], state[MAP_BATCH];
     float carried[FIELDS][MAP_BATCH];
 
@@ -117,6 +118,7 @@ static int keep(map_tracer *t, int k, vmask goes, int kept)
         t->group[kept] = t->group[from];
         t->spare[kept] = t->spare[from];
         t->state[kept] = t->state[from];
+        t->image[kept] = t->image[from];
         for (int f = 0; f < FIELDS; f++)
             t->carried[f][kept] = t->carried[f][from];
     }
@@ -142,6 +144,16 @@ static float dimming_of(const scene *s, int source)
     return source < s->light_count ? s->light_info[source].dimming : s->glow_dimming;
 }
 
+static vfloat maintained(const scene *s, vint source, vmask drawn)
+{
+    float of[LANES];
+    for (int i = 0; i < LANES; i++) {
+        int l = vbits(drawn) >> i & 1 ? lane(source, i) : -1;
+        of[i] = l < 0 ? 1.0f : (float)scene_maintenance(s, l);
+    }
+    return vload(of);
+}
+
 static void set_out(map_tracer *t, int k, const vparticle *p)
 {
     int i = k * LANES;
@@ -151,6 +163,7 @@ static void set_out(map_tracer *t, int k, const vparticle *p)
     vstore(t->carried[FULL] + i, vmax(p->flux.x, vmax(p->flux.y, p->flux.z)));
     vstore_int(t->group + i, p->group);
     vstore_int(t->spare + i, p->spare);
+    vstore_int(t->image + i, vselect_int(p->source < 0, vsplat_int(-1), vsplat_int(0)));
     vstore_int(t->state + i, vsplat_int(0));
 }
 
@@ -162,6 +175,7 @@ static void begin(map_tracer *t, uint32_t first, int count)
         vmask active = (vlane_index() + k * LANES) < count;
         vparticle p;
         vmask drawn = emission_draw(t->job->light, index, vsplat_uint(t->seed), active, &p);
+        p.flux      = vscale(p.flux, maintained(t->job->s, p.source, drawn));
         vstore_int(t->index + k * LANES, vsigned(index));
         set_out(t, k, &p);
         for (int bits = vbits(drawn); bits; bits &= bits - 1) {
@@ -176,11 +190,27 @@ static void begin(map_tracer *t, uint32_t first, int count)
 
 /* ---- on their way ---------------------------------------------------------------------------- */
 
-/* Whether a deflection is one that paths ask for by mirror images (mirrors.h). */
-static vmask follow_images(const map_tracer *t, int k, vmask single)
+static vhit hit_of(const map_tracer *t, int k, vmask active)
 {
-    (void)t, (void)k;
-    return single & (vmask){ 0 };
+    int i = k * LANES;
+    return (vhit){ vload(t->distance + i), vkeep_int(active, vload_int(t->instance + i)),
+                   vkeep_int(active, vload_int(t->triangle + i)), vload(t->u + i),
+                   vload(t->v + i) };
+}
+
+/* Whether a deflection is one that paths ask for by mirror images (mirrors.h); -1 in image from
+ * where it is not on. Light of skies is not asked for so. */
+static vmask follow_images(map_tracer *t, int k, vmask single, vmask wide)
+{
+    const mirrors *m = t->job->s->mirror_images;
+    if (!m)
+        return (vmask){ 0 };
+    vint image = vload_int(t->image + k * LANES);
+    vhit hit   = hit_of(t, k, single);
+    vint next  = mirrors_precede(m, image, &hit, single);
+    image      = vselect_int(single, next, vselect_int(wide, vsplat_int(-1), image));
+    vstore_int(t->image + k * LANES, image);
+    return single & (next > 0);
 }
 
 /* Light of the map's kind. */
@@ -235,14 +265,6 @@ static void go_on(map_tracer *t)
         kept = keep(t, k, met, kept);
     }
     t->alive = kept;
-}
-
-static vhit hit_of(const map_tracer *t, int k, vmask active)
-{
-    int i = k * LANES;
-    return (vhit){ vload(t->distance + i), vkeep_int(active, vload_int(t->instance + i)),
-                   vkeep_int(active, vload_int(t->triangle + i)), vload(t->u + i),
-                   vload(t->v + i) };
 }
 
 /* ---- where they come to ---------------------------------------------------------------------- */
@@ -350,7 +372,8 @@ static void note_scattered(map_tracer *t, int k, const vscatter *next)
 {
     vint before  = vload_int(t->state + k * LANES);
     vmask single = next->pdf == INFINITY;
-    vmask image  = follow_images(t, k, single);
+    vmask goes   = ~next->straight;
+    vmask image  = follow_images(t, k, goes & single & ~next->bent, goes & (~single | next->bent));
     vint bits =
         vselect_int(single, vsplat_int(SCATTERED), vsplat_int(SCATTERED | SPREAD | FROM_MATT));
     bits       = vselect_int(image, bits, bits | NO_IMAGE);

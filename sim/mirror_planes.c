@@ -274,6 +274,12 @@ static void reflect_map(const mirror_image *from, const mirror_plane *p, mirror_
     to->move = (vec3){ (float)out[0][3], (float)out[1][3], (float)out[2][3] };
 }
 
+/* Chain i and plane p, without its first plane: -1 where that is not kept. */
+static int32_t without_first(const mirrors *m, const int32_t *next, int i, int p)
+{
+    return i == 0 ? 0 : next[m->images[i].after * m->plane_count + p];
+}
+
 /* The best way to make a chain longer; false: none is worth it. */
 static bool best_longer(const mirrors *m, const int32_t *next, int count, int *image, int *plane)
 {
@@ -283,7 +289,7 @@ static bool best_longer(const mirrors *m, const int32_t *next, int count, int *i
         for (int p = 0; p < m->plane_count; p++) {
             float share = m->images[i].share * m->planes[p].share;
             if (next[i * m->plane_count + p] == -1 && share > best &&
-                can_follow(m, &m->images[i], p)) {
+                can_follow(m, &m->images[i], p) && without_first(m, next, i, p) >= 0) {
                 best   = share;
                 *image = i, *plane = p;
             }
@@ -297,16 +303,19 @@ static bool make_chains(arena *a, mirrors *m, lux_error *err)
     mirror_image *images = arena_array(a, mirror_image, MOST_MIRROR_IMAGES, err);
     int32_t *next   = images ? arena_array(a, int32_t, MOST_MIRROR_IMAGES * planes, err) : NULL;
     size_t room     = MOST_MIRROR_IMAGES * MOST_MIRROR_IMAGES / 2;
-    int32_t *chains = next ? arena_array(a, int32_t, room, err) : NULL;
+    int32_t *earlier =
+        next ? arena_array(a, int32_t, MOST_MIRROR_IMAGES * planes, err) : NULL;
+    int32_t *chains = earlier ? arena_array(a, int32_t, room, err) : NULL;
     if (!chains)
         return false;
     memset(next, -1, MOST_MIRROR_IMAGES * planes * sizeof *next);
+    memset(earlier, -1, MOST_MIRROR_IMAGES * planes * sizeof *earlier);
     images[0] = (mirror_image){ .before = -1,
                                 .share  = 1.0f,
                                 .row    = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } };
-    m->images = images, m->chains = chains, m->next = next, m->image_count = 1;
+    m->images = images, m->chains = chains, m->next = next, m->earlier = earlier, m->image_count = 1;
     size_t used = 0;
-    int from, plane;
+    int from = 0, plane = 0;
     while (m->image_count < MOST_MIRROR_IMAGES &&
            best_longer(m, next, m->image_count, &from, &plane)) {
         const mirror_image *short_ = &images[from];
@@ -323,7 +332,9 @@ static bool make_chains(arena *a, mirrors *m, lux_error *err)
             memcpy(chains + used, chains + short_->first, depth * sizeof *chains);
         chains[used + depth] = plane;
         used += depth + 1;
-        next[from * m->plane_count + plane] = m->image_count++;
+        to->after = without_first(m, next, from, plane);
+        earlier[to->after * m->plane_count + chains[to->first]] = m->image_count;
+        next[from * m->plane_count + plane]                     = m->image_count++;
         m->most                             = fmaxf(m->most, to->share);
     }
     return true;

@@ -24,14 +24,25 @@ vint mirrors_plane(const mirrors *m, const vhit *hit, vmask active)
     return vload_int(of);
 }
 
-vint mirrors_follow(const mirrors *m, vint image, const vhit *hit, vmask active)
+static vint longer(const mirrors *m, const int32_t *table, vint image, const vhit *hit,
+                   vmask active)
 {
     vint plane = mirrors_plane(m, hit, active & (image >= 0));
     vmask on   = plane >= 0;
     if (!vany(on))
         return vsplat_int(-1);
-    vint next = vgather_int(m->next, vkeep_int(on, image * m->plane_count + plane));
+    vint next = vgather_int(table, vkeep_int(on, image * m->plane_count + plane));
     return vselect_int(on, next, vsplat_int(-1));
+}
+
+vint mirrors_follow(const mirrors *m, vint image, const vhit *hit, vmask active)
+{
+    return longer(m, m->next, image, hit, active);
+}
+
+vint mirrors_precede(const mirrors *m, vint image, const vhit *hit, vmask active)
+{
+    return longer(m, m->earlier, image, hit, active);
 }
 
 /* ---- images of places ------------------------------------------------------------------------ */

@@ -39,7 +39,8 @@ typedef struct mirror_plane {
 
 /* A chain of planes. Number 0 is the empty one. */
 typedef struct mirror_image {
-    int32_t before; /* the chain without the last plane */
+    int32_t before; /* the chain without its last plane */
+    int32_t after;  /* and without its first one, which is kept, too */
     int32_t first;  /* in mirrors.chains: its planes, p1 first */
     int32_t depth;  /* how many they are */
     float share;    /* what the mirrors give back, about */
@@ -55,6 +56,7 @@ typedef struct mirrors {
     const mirror_image *images;
     const int32_t *chains;
     const int32_t *next;     /* [image * plane_count + plane]: the longer chain; -1: not kept */
+    const int32_t *earlier;  /* the same, put before the chain */
     const int64_t *first_of; /* of an instance: where its triangles begin in plane_of; -1 */
     const int32_t *plane_of; /* of a triangle; -1: it is in none */
     float most;              /* the largest share of an image */
@@ -67,6 +69,10 @@ bool mirrors_find(arena *a, const mesh *meshes, const world_instance *instances,
 
 /* The chain that `image` (-1: none) becomes by a reflection at the hit; -1: it is not kept. */
 vint mirrors_follow(const mirrors *m, vint image, const vhit *hit, vmask active);
+
+/* The same where light itself is followed, from the lamp on: the hit's plane comes before the
+ * others. */
+vint mirrors_precede(const mirrors *m, vint image, const vhit *hit, vmask active);
 
 /* The plane that a hit is in, -1: none. */
 vint mirrors_plane(const mirrors *m, const vhit *hit, vmask active);

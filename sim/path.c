@@ -340,6 +340,8 @@ static void begin(path_tracer *t, path_bundle *b, const path_options *o)
     memset(b->met, 0, sizeof b->met);
     if (b->mirrored)
         memset(b->mirrored, 0, sizeof *b->mirrored);
+    if (b->smoothed)
+        memset(b->smoothed, 0, PATHS * sizeof *b->smoothed);
     if (b->outside)
         memset(b->outside, 0, sizeof *b->outside);
     if (b->daylight)
@@ -402,6 +404,8 @@ void path_trace(path_tracer *t, path_bundle *b, const path_options *o)
         draw_numbers(t);
         if (o->bounce && goes_on(t, 0))
             ask(t, false);
+        if ((t->indirect || t->focused) && o->bounce)
+            path_take_maps(t);
         draw_directions(t);
     }
 }

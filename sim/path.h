@@ -24,6 +24,7 @@
 #define SIM_PATH_H
 
 #include "sim/scene.h"
+#include "sim/illumination_map.h"
 #include "sim/sun_patch.h"
 
 enum { PATHS = 1024 }; /* most at once; a multiple of every packet width */
@@ -52,6 +53,8 @@ typedef struct path_bundle {
     path_sums *outside;  /* NULL; or what of `indirect` came last from the ground or from a surface
                             that is outside */
     path_sums *daylight; /* NULL; or what is of suns and skies */
+    float *smoothed;     /* NULL; or of PATHS: W/m^2, as luminance, by which it would be less if maps
+                            were coarser by a step */
     float met[PATHS];    /* 1 if the first ray met a surface that gives light on, else 0 */
 } path_bundle;
 
@@ -72,6 +75,11 @@ path_tracer *path_tracer_new(arena *a, const scene *s, lux_error *err);
 
 /* From now on sunlit patches are asked for light, too; they must outlive t. */
 void path_use_patches(path_tracer *t, const sun_patches *patches);
+
+/* From now on maps are asked (NULL: none of that kind); they must outlive t. Focused light is found
+ * by its map alone, and no more by rays that meet lamps behind glass or round mirrors. */
+void path_use_maps(path_tracer *t, const illumination_map *indirect,
+                   const illumination_map *focused);
 
 /* Fills in what the paths of b find: estimates of what their sensor measures, one a path. */
 void path_trace(path_tracer *t, path_bundle *b, const path_options *o);

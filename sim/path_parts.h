@@ -55,6 +55,7 @@ struct path_tracer {
     seen_lamps shown;           /* lamps that rays may find */
     const lamp_boxes *boxes;    /* of those */
     const sun_patches *patches; /* NULL: no sun comes in by a portal */
+    const illumination_map *indirect, *focused; /* NULL */
     int32_t *list;              /* room for as many */
     int64_t ray_count;
     path_bundle *b;
@@ -208,6 +209,9 @@ void path_ask_patches(path_tracer *t, bool beginning);
 /* How much the light of the sun of that number counts where packet k stands, if it has come by way
  * of what path_ask_patches() may have asked; wi: toward the sun. */
 vfloat path_patch_share(const path_tracer *t, int k, int sun, const vvec3 *wi, vmask active);
+
+/* Light that maps know where the paths stand; those that it is all for end there. */
+void path_take_maps(path_tracer *t);
 
 /* The density, 1/m^2, with which the paths' own rays have come to where packet k stands; 0 where
  * nothing else could have. */

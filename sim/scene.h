@@ -45,6 +45,7 @@ typedef enum material_deed {
     DOES_SOLID    = 8,  /* it is the face of a solid that refracts */
     DOES_EXTERIOR = 16, /* it is outside: light that it gives on comes from there */
     DOES_HOLLOW   = 32, /* it lets light straight through */
+    DOES_LENS     = 64, /* it is a solid that is no plate: no shadow ray passes it */
 } material_deed;
 
 typedef struct scene_light {
@@ -89,6 +90,17 @@ typedef struct light_set {
 
 /* The first group of a series, of all that is no daylight. */
 #define SCENE_LAMPS "lamps"
+
+/* The shares of light that come to surfaces, from where they go on, otherwise than straight or by
+ * mirror images: measured with some thousand particles. */
+typedef struct scene_ways {
+    double focused; /* by round mirrors, and by solids that refract */
+    double narrow;  /* by way of narrow lobes */
+} scene_ways;
+
+/* Less than that share does not matter: a tenth of the accuracy that is promised if none is asked
+ * for. */
+#define SHARE_THAT_MATTERS 0.002
 
 typedef struct scene_camera {
     const char *name;
@@ -161,14 +173,17 @@ typedef struct scene {
                                textures of emission or alpha, and only rays find them */
     uint64_t texture_bytes; /* of all textures, kept */
     uint64_t picture_bytes; /* of the largest picture decoded, while its texture is made */
-    bool mirrors;           /* some material in use reflects as a mirror does */
-    bool mirrors_hide;      /* light of small lights that comes by way of those is not found */
-    bool glints;            /* so is the suns', and it matters */
+    bool lenses;            /* some solids are no plates */
+    scene_ways by_lamps, by_suns;
+    bool lamps_hide; /* some lamps are too small to be met by rays, by way of narrow lobes */
     int small_patches;      /* lamps that light a patch too small for samples to find reliably */
 } scene;
 
+/* Whether some light is focused that matters: then results want a map of it. */
+bool scene_focuses(const scene *s);
+
 /* The light that samples may miss without an interval telling, in words; NULL if there is none. */
-const char *scene_left_to_chance(const scene *s, bool direct_only);
+const char *scene_left_to_chance(const scene *s, bool direct_only, bool focused_found);
 
 /* Ways of reckoning that are worse or slower, for lux4 cost to show what the usual ones are worth.
  */

@@ -1,0 +1,106 @@
+/* sim/scene_lens.c -- which solids of glass are plates, which light passes about straight, and which
+ * bend it: lenses, balls, blocks.
+ *
+ * Rays from all around meet the solids of a scene; where one does, the solid's far side is looked
+ * for. A plate's is near and even with this one, and its edges are far.
+ */
+#include "core/color.h"
+#include "core/sampler.h"
+#include "core/warp.h"
+#include "sim/scene_build.h"
+
+enum { RAYS = 1 << 12, MOST_MATERIALS = 64 };
+
+static const float even_normals = 0.999f; /* cosine */
+static const float flat         = 5.0f;   /* times as wide as thick */
+static const double plate_share = 0.8;    /* of what is met */
+
+typedef struct finding {
+    int met, plate;
+} finding;
+
+static vray ray_through(const scene *s, vsample4 u, vsample4 v)
+{
+    dvec3 half   = d3_scale(d3_sub(s->high, s->low), 0.5);
+    dvec3 middle = d3_sub(d3_scale(d3_add(s->high, s->low), 0.5), s->centre);
+    float radius = (float)d3_length(half);
+    vvec3 way    = vwarp_sphere(u.x, u.y);
+    vvec3 within = vspread(d3_to_float(half));
+    vvec3 at     = { 2.0f * v.x - 1.0f, 2.0f * v.y - 1.0f, 2.0f * v.z - 1.0f };
+    at           = vadd(vspread(d3_to_float(middle)), vmul(at, within));
+    return (vray){ valong(at, way, vsplat(-2.0f * radius)), way, vsplat(INFINITY) };
+}
+
+/* How far the solid's surface is from p along w. */
+static vfloat inside_to(const scene *s, const vsurface *at, const vvec3 *p, const vvec3 *w,
+                        vmask active, vvec3 *normal)
+{
+    vray ray = { *p, *w, vsplat(INFINITY) };
+    vhit hit;
+    vsurface there;
+    (void)at;
+    world_first_hit(s->world, &ray, &active, 1, RAYS_INCOHERENT, &hit);
+    world_surface(s->world, &hit, active & (hit.instance >= 0), &there);
+    *normal = there.normal;
+    return hit.distance;
+}
+
+static vmask is_plate(const scene *s, const vsurface *at, vmask met)
+{
+    vvec3 in    = vneg(at->normal), back, ignored;
+    vvec3 start = vray_start(at, &in);
+    vfloat deep = inside_to(s, at, &start, &in, met, &back);
+    vmask plate = met & (deep < INFINITY) & (vabs(vdot(back, at->normal)) > even_normals);
+    vvec3 mid   = valong(start, in, 0.5f * deep);
+    vvec3 u, v;
+    vframe(at->normal, &u, &v);
+    vvec3 sides[4] = { u, v, vneg(u), vneg(v) };
+    vint far       = { 0 };
+    for (int i = 0; i < 4 && vany(plate); i++) {
+        vfloat d = inside_to(s, at, &mid, &sides[i], plate, &ignored);
+        far      = vselect_int(d > flat * deep, far + 1, far);
+    }
+    return plate & (far >= 3);
+}
+
+static void look(const scene *s, uint32_t first, finding *of)
+{
+    vuint index  = vunsigned(vlane_index()) + first;
+    vsample4 u   = vsobol4(index, vsplat_uint(1)), v = vsobol4(index, vsplat_uint(2));
+    vray ray     = ray_through(s, u, v);
+    vmask active = ALL_LANES;
+    for (int layer = 0; layer < 4 && vany(active); layer++) {
+        vhit hit;
+        vsurface at;
+        world_first_hit(s->world, &ray, &active, 1, RAYS_INCOHERENT, &hit);
+        vmask met = active & (hit.instance >= 0);
+        world_surface(s->world, &hit, met, &at);
+        vint does   = vgather_int(s->material_does, vkeep_int(met, at.material));
+        vmask solid = met & ((does & DOES_SOLID) != 0) & (vdot(at.normal, ray.direction) < 0.0f);
+        vmask plate = vany(solid) ? is_plate(s, &at, solid) : solid;
+        for (int bits = vbits(solid); bits; bits &= bits - 1) {
+            int i = __builtin_ctz((unsigned)bits);
+            of[lane(at.material, i)].met++;
+            of[lane(at.material, i)].plate += vbits(plate) >> i & 1;
+        }
+        ray.origin = vray_start(&at, &ray.direction);
+        active     = met;
+    }
+}
+
+bool scene_find_lenses(scene *s, int32_t *does, lux_error *err)
+{
+    if (!s->solids)
+        return true;
+    arena a     = { 0 };
+    finding *of = arena_array(&a, finding, (size_t)s->material_count + 1, err);
+    for (uint32_t i = 0; of && i < RAYS; i += LANES)
+        look(s, i, of);
+    for (int m = 0; of && m < s->material_count; m++)
+        if (s->materials[m]->solid && of[m].met > 0 && of[m].plate < plate_share * of[m].met) {
+            does[m] |= DOES_LENS;
+            s->lenses = true;
+        }
+    arena_clear(&a);
+    return of != NULL;
+}

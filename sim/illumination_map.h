@@ -6,7 +6,7 @@
  * mesh, whose nodes are sets of its triangles, then parts of one triangle; irradiance is flux over
  * area. Nothing is gathered through a wall, around a corner or across a crease, as no cell lies on
  * both: one over which a wall stands is divided until it is small, and is then told to have no
- * value.
+ * value. Nor have surfaces to which too few particles came to tell: paths go on from these.
  *
  * Light that comes straight from a source is not deposited, nor what is found by asking for mirror
  * images (mirrors.h): paths ask for these. There are SCRAMBLES maps, of independent particles, on
@@ -67,7 +67,7 @@ typedef struct map_figures {
     double seconds;
     vec3 emitted, absorbed, escaped; /* W: what became of the light of the particles */
     vec3 dropped;                    /* W, of particles that were given up: 0 but for no memory */
-    vec3 unplaced; /* W, that came where no cell has a value: sums over all that came there */
+    vec3 unplaced; /* W, of the light that is deposited: where no cell has a value */
 } map_figures;
 map_figures illumination_map_figures(const illumination_map *m);
 

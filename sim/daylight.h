@@ -60,8 +60,8 @@ typedef struct daylight {
  * daylight. */
 bool daylight_begin(daylight *d, double step_h, lux_error *err);
 
-/* Makes the scene of the first batch anew, and all others, without effects: bits 1 << effect. False,
- * with *err. */
+/* Makes the scene of the first batch anew, and all others, without effects: bits 1 << effect.
+ * False, with *err. */
 bool daylight_leave_out(daylight *d, uint32_t off, lux_error *err);
 
 /* Runs all grids at all moments; o->deadline is shared among them. What there was when the user

@@ -10,7 +10,7 @@
 /* A new command is one file and one line here. */
 static const command *const commands[] = {
     &command_grid, &command_render,     &command_daylight, &command_check, &command_sun,
-    &command_sky,  &command_photometry, &command_material, &command_mix, &command_plan
+    &command_sky,  &command_photometry, &command_material, &command_mix,   &command_plan
 };
 enum { COMMANDS = sizeof commands / sizeof *commands };
 

@@ -17,7 +17,7 @@ static void add_material(const scene *s, int i, plan_materials *to)
     bool sharp  = !m->type->reflect && largest(info->reflectance) > 0.0;
     to->area += info->area;
     to->matt_share += m->matt ? info->area : 0.0;
-    to->bright_share += back > BRIGHT ? info->area : 0.0;
+    to->bright_share += back > BRIGHT * (1.0 + 1e-6) /* as floats round */ ? info->area : 0.0;
     to->mean += back * info->area;
     to->most = fmax(to->most, largest(on));
     to->textured += info->textured;

@@ -77,27 +77,46 @@ static void assert_pair(lab *l, effect e, const char *without, const char *with)
 
 /* ---- bounded --------------------------------------------------------------------------------- */
 
-/* A study with a number in it whose bound grows with it as its power says: just below the number
- * where the bound is all that may be left out the effect is off, and agrees; just above it is on.
- */
-static void assert_on_by_a_hair(lab *l, effect e, const char *format, double first, double power)
+/* A study with a number in it, by which the bound grows. */
+typedef struct numbered {
+    const char *before, *after;
+    double off, on; /* numbers where the effect is off; is on */
+} numbered;
+
+static const char *study_at(lab *l, const numbered *n, double number)
+{
+    return text_of(&l->a, "%s%.9g%s", n->before, number, n->after);
+}
+
+static plan planned_at(lab *l, const numbered *n, double number)
+{
+    plan p        = { 0 };
+    lux_error err = { 0 };
+    if (!plan_make(lab_scene(l, study_at(l, n, number)), &as_planned, &p, NULL, &err))
+        fail_msg("%s", err.text);
+    return p;
+}
+
+/* Just below the number where the bound is all that may be left out the effect is off, and agrees;
+ * just above it is on. */
+static void assert_on_by_a_hair(lab *l, effect e, numbered n)
 {
     outcome o, forced;
-    run(l, text_of(&l->a, format, first), &as_planned, &o);
-    assert_false(is_on(&o, e));
-    double bound = o.plan.effects[e].bound, most = 0.2 * o.plan.accuracy;
-    assert_true(bound > 0.0 && bound < most);
-    double edge = first * pow(most / bound, 1.0 / power);
-
-    run(l, text_of(&l->a, format, 0.97 * edge), &as_planned, &o);
-    run(l, text_of(&l->a, format, 0.97 * edge), &all_is_on, &forced);
+    assert_false(planned_at(l, &n, n.off).effects[e].on);
+    assert_true(planned_at(l, &n, n.on).effects[e].on);
+    while (n.on > 1.002 * n.off) {
+        double middle                                               = sqrt(n.off * n.on);
+        *(planned_at(l, &n, middle).effects[e].on ? &n.on : &n.off) = middle;
+    }
+    run(l, study_at(l, &n, n.off), &as_planned, &o);
+    run(l, study_at(l, &n, n.off), &all_is_on, &forced);
     assert_false(is_on(&o, e));
     assert_true(is_on(&forced, e));
-    assert_near(o.plan.bound, most, 0.15);
+    assert_near(o.plan.bound, 0.2 * o.plan.accuracy, 0.01);
     for (int k = 0; k < o.grid.sensor_count; k++)
         assert_true(o.grid.half_width[k] >= o.plan.bound * o.grid.illuminance[k] * (1.0 - 1e-12));
     assert_agree(&o, &forced);
-    run(l, text_of(&l->a, format, 1.03 * edge), &as_planned, &o);
+    run(l, study_at(l, &n, n.on), &as_planned, &o);
     assert_true(is_on(&o, e));
     assert_near(o.plan.bound, 0.0, 0.0);
 }
@@ -106,20 +125,21 @@ TEST(interreflection_of_an_all_but_black_room_is_off_to_a_hair)
 {
     lab l;
     lab_open(&l);
-    assert_on_by_a_hair(&l, EFFECT_INTERREFLECTION, ROOM("%.9g") "lights: [" POINT "]\n" GRID, 1e-6,
-                        1.0);
+    assert_on_by_a_hair(
+        &l, EFFECT_INTERREFLECTION,
+        (numbered){ "lux4: 1\naccuracy: 10%\nroom: {size: [4, 3, 2.5], reflectance: ",
+                    "}\nlights: [" POINT "]\n" GRID, 1e-6, 0.01 });
     lab_close(&l);
 }
 
-/* A disk's bound goes with its area. */
 TEST(a_small_disk_is_a_point_to_a_hair)
 {
     lab l;
     lab_open(&l);
-    assert_on_by_a_hair(&l, EFFECT_AREA_LIGHTS,
-                        ROOM("0") "lights: [{type: disk, at: [2, 1.5, 2.2], lumens: 1000, radius: "
-                                  "%.9g}]\n" GRID,
-                        0.005, 2.0);
+    assert_on_by_a_hair(
+        &l, EFFECT_AREA_LIGHTS,
+        (numbered){ ROOM("0") "lights: [{type: disk, at: [2, 1.5, 2.2], lumens: 1000, radius: ",
+                    "}]\n" GRID, 0.005, 0.4 });
     lab_close(&l);
 }
 

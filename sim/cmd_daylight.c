@@ -190,7 +190,7 @@ static int run_series(const command_context *c, const study *s, lux_error *err)
     planned.series       = true;
     double step_h        = when.from_min < when.to_min ? when.step_min / 60.0 : (double)NAN;
     if (!daylight_begin(&d, step_h, err) || !plan_make(d.scene, &planned, &p, c->notices, err) ||
-        !daylight_leave_out(&d, plan_without(&p), err) ||
+        !daylight_plan(&d, plan_without(&p), p.on, err) ||
         !check_places(c, d.scene, series_extensions, SERIES_EXTENSIONS, err) ||
         !run_planned(&d, &p, &o, err))
         code = exit_code_of(err, true);

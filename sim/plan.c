@@ -152,6 +152,9 @@ static void decide(decision *d, notices *n)
     obey(d, n);
     d->p->off = built_without(d);
     for (int e = 0; e < EFFECTS; e++)
+        if (d->p->effects[e].on && !d->called.on[e])
+            d->p->on |= 1u << e;
+    for (int e = 0; e < EFFECTS; e++)
         plan_tell(d->f, (effect)e, d->called.on[e], &d->p->effects[e]);
     choose_transport(d);
 }

@@ -32,7 +32,8 @@ static void run(lab *l, const char *yaml, const plan_options *how, outcome *out)
     if (!plan_make(s, how, &out->plan, NULL, &err))
         fail_msg("%s", err.text);
     o.off      = plan_without(&out->plan);
-    out->scene = o.off ? scene_new(&l->a, s->study, &o, NULL, &err) : s;
+    o.on       = out->plan.on;
+    out->scene = o.off | o.on ? scene_new(&l->a, s->study, &o, NULL, &err) : s;
     assert_non_null(out->scene);
     plan_apply(&out->plan, &r);
     grid_of_scene(&l->a, out->scene, 0, &r, &out->grid);

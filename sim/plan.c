@@ -146,7 +146,7 @@ static void decide(decision *d, notices *n)
     d->off                = (o->has_only ? d->off | ~o->only : d->off) & all;
     d->on                 = o->has_only ? o->only & ~d->off & all : 0;
     d->left               = bounds_share * d->f->accuracy;
-    d->called             = called_for(d->f, o->direct_only);
+    d->called             = called_for(d->f, false);
     decide_interreflection(d);
     decide_rest(d);
     obey(d, n);
@@ -169,7 +169,7 @@ bool plan_make(const scene *s, const plan_options *o, plan *out, notices *n, lux
         decision d    = { .f = &f, .p = out };
         out->accuracy = f.accuracy;
         decide(&d, n);
-        const char *weak = scene_left_to_chance(s, !out->effects[EFFECT_INTERREFLECTION].on);
+        const char *weak = scene_left_to_chance(s, out->off >> EFFECT_INTERREFLECTION & 1);
         if (weak)
             out->weak[out->weak_count++] = weak;
     }
@@ -181,5 +181,5 @@ void plan_apply(const plan *p, run_options *o)
 {
     o->bound     = p->bound;
     o->transport = p->transport;
-    o->direct_only |= !p->effects[EFFECT_INTERREFLECTION].on;
+    o->direct_only |= p->off >> EFFECT_INTERREFLECTION & 1; /* else nothing gives light on */
 }

@@ -168,15 +168,15 @@ static void tell_panorama(const plan_facts *f, bool called, plan_effect *to)
 static void tell_interreflection(const plan_facts *f, bool called, plan_effect *to)
 {
     const plan_materials *m = &f->materials;
-    if (called && !to->on && to->bound > 0.0)
+    if (f->o->direct_only)
+        say(to, "left out as asked: --direct-only");
+    else if (called && !to->on && to->bound > 0.0)
         say(to, "no surface reflects more than %.2g %%", 100.0 * m->most);
     else if (called)
         say(to,
             "%.0f %% of the surface area reflects more than %.0f %%, in the mean %.0f %%: about "
             "%d reflections",
             100.0 * m->bright_share, 100.0 * BRIGHT, 100.0 * m->mean, depth_of(f, m->mean));
-    else if (f->o->direct_only)
-        say(to, "left out as asked: --direct-only");
     else if (!scene_is_lit(f->s))
         say(to, "nothing gives light");
     else

@@ -256,7 +256,8 @@ static double bound_of_textures(const plan_facts *f)
     double left = 1.0 - (1.0 + e) * f->materials.most;
     if (e == 0.0 || !isfinite(e))
         return e;
-    return left > 0.0 ? e / left : HUGE_VAL;
+    double seen = f->o->views ? e : 0.0; /* by the eye itself */
+    return left > 0.0 ? seen + e / left : HUGE_VAL;
 }
 
 /* 8-bit pictures have no 0.5 : 127 and 128 of 255 are both as flat as they can be. */

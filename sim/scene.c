@@ -234,6 +234,20 @@ static void say_what_lights_are(scene *s)
     }
 }
 
+/* What costs nothing where a scene has none of it, looked for all the same. */
+static void force_on(const scene_build *b, scene *s)
+{
+    scene_light *info = b->light_info.items;
+    uint32_t on       = b->options->on;
+    s->extended |= on >> EFFECT_AREA_LIGHTS & 1;
+    s->textured |= on >> EFFECT_TEXTURES & 1;
+    s->smooth |= on >> EFFECT_NORMAL_MAPS & 1;
+    s->narrow |= (on >> EFFECT_MIRRORS | on >> EFFECT_MEASURED_BRDF) & 1;
+    s->hollow |= on >> EFFECT_TINTED_SHADOWS & 1;
+    for (int l = 0; l < s->light_count && on >> EFFECT_SHADOWS & 1; l++)
+        info[l].clear = false;
+}
+
 const scene *scene_new(arena *a, const study *from, const scene_options *o, notices *n,
                        lux_error *err)
 {
@@ -266,6 +280,10 @@ const scene *scene_new(arena *a, const study *from, const scene_options *o, noti
     s->sky_count      = (int)b.skies.count;
     s->moments        = b.moments;
     s->moment_count   = b.moment_count;
+    s->unshadowed     = is_left_out(&b, EFFECT_SHADOWS);
+    s->untinted       = is_left_out(&b, EFFECT_TINTED_SHADOWS);
+    s->asks_all       = is_left_out(&b, EFFECT_MANY_LIGHTS);
+    s->pixel_centres  = is_left_out(&b, EFFECT_ANTIALIASING);
     if (!join_lights(&b, s) || !say_what_surfaces_do(&b, s) || !take_groups(&b, s) ||
         !make_sets(&b, s) || !scene_find_portals(&b, s))
         return NULL;
@@ -276,5 +294,6 @@ const scene *scene_new(arena *a, const study *from, const scene_options *o, noti
     scene_find_focus(s, n);
     if (!scene_find_glints(s, n, err))
         return NULL;
+    force_on(&b, s);
     return s;
 }

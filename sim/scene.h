@@ -35,6 +35,7 @@ typedef struct scene_material {
     bool overridden;      /* by the study's materials */
     bool exterior;        /* of what the study says is outside */
     bool used;            /* some surface is made of it */
+    double area;          /* m^2, of those, one side */
 } scene_material;
 
 /* What paths need to know of a material without asking it. */
@@ -166,6 +167,10 @@ typedef struct scene {
     bool narrow;                  /* some are not matt: rays find lamps by way of them */
 
     const mirrors *mirror_images; /* NULL: no plane mirror or pane that lamps or suns light */
+    bool unshadowed, untinted; /* as asked for: no shadow ray is traced; what lets light straight
+                                  through lets all of it pass */
+    bool asks_all;             /* so, too: sensors ask all lamps, however many */
+    bool pixel_centres;        /* so, too: views look through the middles of pixels */
 
     bool reflects;          /* light goes on from some surface, to either side */
     bool glows;             /* some surface emits light */
@@ -203,6 +208,8 @@ typedef struct scene_options {
     int moment_count;
     bool lamps_off; /* lamps and glowing surfaces are left out */
     uint32_t off;   /* bits 1 << effect (effects.h): effects that are left out */
+    uint32_t on;    /* the same: that are looked for though nothing calls for them: results are the
+                       same, and take longer */
     scene_measures measures;
 } scene_options;
 

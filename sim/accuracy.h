@@ -60,7 +60,7 @@ typedef struct accuracy_desc {
     int items, channels;
     int judged; /* the first so many channels have half widths; 0: one. If more than one, the
                    first is not held to the accuracy: see above */
-    int told;    /* so many more, behind those, have half widths, too, and no say */
+    int told;   /* so many more, behind those, have half widths, too, and no say */
     bool apart; /* of several: each has a say of its own, against a floor of its own */
     const double *exact; /* what is known of those besides: judged * items; NULL: 0 */
     const double *bound; /* how far off the rest may be at most, >= 0: judged * items; NULL: 0 */
@@ -68,6 +68,8 @@ typedef struct accuracy_desc {
     double needed;       /* share of the items that must be done, (0, 1] */
     floor_kind floor;
     int first_samples;  /* a scramble, in the first round; a power of two <= BUNDLE */
+    int only_samples;   /* an item takes so many and no more, in as many scrambles as divide them,
+                           whatever that makes of the accuracy; 0: as many as it takes */
     int dark_samples;   /* a scramble, at least, before samples that were all 0 are believed */
     int threads;        /* >= 1 */
     double deadline;    /* s, on clock_seconds(); HUGE_VAL: none. Two sets an item come first. */

@@ -341,7 +341,11 @@ bool grid_run(arena *a, const scene *s, const study_grid *grid, const run_option
                          .r       = out,
                          .layers  = s->layered ? s->group_count : 0,
                          .moments = s->by_moment ? s->moment_count : 0,
-                         .paths   = { .quantity = grid->quantity, .bounce = !o->direct_only },
+                         .paths   = { .quantity      = grid->quantity,
+                                      .bounce        = !o->direct_only,
+                                      .bounded       = o->bounded,
+                                      .bounces       = o->bounces,
+                                      .roulette_from = o->roulette_from },
                          .seed    = seed };
     g.channels       = lay_out(&g);
     for (int i = 0; i < s->sun_count; i++)

@@ -6,18 +6,14 @@
  *     first pass   all other settings once; then the costliest are dropped until the rest fits
  *     two more     everything again and again, in turns: what slows the machine down for a while
  *                  slows all of them
- *
- * The time for an accuracy p is taken to grow as p^-e, with e as the last two rungs have it.
  */
 #include "sim/cost_parts.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { TIGHTER = 3 /* than the finest rung: the reference */ };
-
-static const double least_growth = 1.0, most_growth = 2.0; /* e */
-static const double still = 0.8; /* e below that: both rungs took as few samples as any */
+/* A scene that is no larger is kept from run to run. */
+static const uint64_t most_kept_bytes = 32 << 20;
 
 /* The bar over the whole tells time alone: what is expected is known after the pilot. */
 typedef struct whole_bar {
@@ -100,20 +96,28 @@ static bool make_scenes(cost_work *w)
     return w->usual != NULL;
 }
 
-static bool is_plain(const scene_measures *m)
+static bool is_small(const scene *s)
 {
-    return !m->projection_test && !m->nearest_tables && !m->libm_tables && !m->point_sun;
+    return world_statistics(s->world).bytes + s->texture_bytes <= most_kept_bytes;
 }
 
-/* The scene of a setting; in a if it has one of its own. */
-static const scene *scene_of(cost_work *w, const cost_setting *s, arena *a, lux_error *err)
+/* The scene of a setting; in s->own if it has one of its own. */
+static const scene *scene_of(cost_work *w, cost_setting *s, lux_error *err)
 {
-    notices ignored = { .a = a };
-    if (is_plain(&s->scene.measures) && s->scene.off == w->plan.off)
-        return w->usual;
-    if (is_plain(&s->scene.measures) && s->scene.off == 0)
-        return w->whole;
-    return build(w, a, &s->scene, &ignored, err);
+    notices ignored = { .a = &s->own };
+    if (!s->own_scene)
+        return s->scene.off == w->plan.off ? w->usual : w->whole;
+    if (!s->made)
+        s->made = build(w, &s->own, &s->scene, &ignored, err);
+    return s->made;
+}
+
+static void keep_or_drop_scene(cost_setting *s)
+{
+    if (s->made && s->runs < COST_RUNS && is_small(s->made))
+        return;
+    arena_clear(&s->own);
+    s->made = NULL;
 }
 
 /* ---- runs ------------------------------------------------------------------------------------ */
@@ -131,26 +135,22 @@ static bool pass_over(cost_work *w, cost_setting *s, const lux_error *why)
 /* Runs a setting once more; a run that time cut short counts only where there is no other. */
 static bool run_once(cost_work *w, cost_setting *s)
 {
-    arena own       = { 0 };
     lux_error why   = { 0 };
     run_options o   = s->run;
     o.seed          = w->o->run.seed + (uint32_t)s->runs;
     o.deadline      = w->o->run.deadline;
     o.progress      = &w->inner;
-    const scene *of = scene_of(w, s, &own, &why);
+    const scene *of = scene_of(w, s, &why);
     cost_sample *to = &s->sample[s->runs];
     bool good       = of && cost_sample_take(w->a, of, &w->of, &o, to, &why);
-    arena_clear(&own);
-    if (!good)
-        return pass_over(w, s, &why);
-    w->stopped |= to->end == RUN_INTERRUPTED;
-    if (to->end == RUN_LATE)
+    bool cut        = good && (to->end == RUN_LATE || to->end == RUN_INTERRUPTED);
+    w->stopped |= good && to->end == RUN_INTERRUPTED;
+    if (good && to->end == RUN_LATE)
         w->out->end = RUN_LATE;
-    bool cut = to->end == RUN_LATE || to->end == RUN_INTERRUPTED;
-    if (!cut || s == &w->list.all[0])
-        s->runs++;
-    s->dropped |= s->runs == 0;
-    return true;
+    s->runs += good && (!cut || s == &w->list.all[0]);
+    s->dropped |= good && s->runs == 0;
+    keep_or_drop_scene(s);
+    return good || pass_over(w, s, &why);
 }
 
 static bool must_stop(const cost_work *w)
@@ -158,58 +158,19 @@ static bool must_stop(const cost_work *w)
     return w->stopped || w->out->end == RUN_LATE || progress_stopped(w->o->run.progress);
 }
 
-/* ---- time ------------------------------------------------------------------------------------ */
-
-static double seconds_of(const cost_work *w, int k)
-{
-    return w->list.all[k].runs ? w->list.all[k].sample[0].seconds : 0.0;
-}
-
-/* e behind rung k. */
-static double growth_at(const cost_work *w, int k)
-{
-    if (k < 1)
-        return most_growth;
-    double finer = w->list.all[k - 1].run.accuracy / w->list.all[k].run.accuracy;
-    double e     = log(seconds_of(w, k) / seconds_of(w, k - 1)) / log(finer);
-    return e > still ? fmin(fmax(e, least_growth), most_growth) : most_growth; /* NaN too */
-}
-
-/* The rung at which settings besides the ladder run, if rung `finest` is its last. */
-static int rung_of_others(const cost_work *w, int finest)
-{
-    int k = 0;
-    while (k < finest && w->list.all[k].run.accuracy > w->of.asked * (1.0 + 1e-9))
-        k++;
-    return k;
-}
-
-/* What is still to be done once the pilot has reached rung k, if the next one is run (`next`) or is
- * not, s. */
-static double still_to_do(const cost_work *w, int k, bool next)
-{
-    const cost_setting *rungs = w->list.all;
-    double e = growth_at(w, k), last = seconds_of(w, k), sum = 0.0, accuracy = 0.0;
-    for (int i = 0; i <= k; i++)
-        sum += (COST_RUNS - 1) * seconds_of(w, i);
-    accuracy = rungs[k].run.accuracy;
-    if (next) {
-        last *= pow(accuracy / rungs[k + 1].run.accuracy, e);
-        sum += COST_RUNS * last;
-    }
-    int at        = rung_of_others(w, next ? k + 1 : k);
-    double other  = (at > k ? last : seconds_of(w, at)) + w->scene_seconds;
-    double others = 0.0;
-    for (int i = w->list.rungs; i < w->list.count; i++)
-        others += rungs[i].usual ? 0.0 : COST_RUNS * other;
-    return sum + others + last * pow(TIGHTER, e);
-}
+/* ---- the pilot and the reference --------------------------------------------------------------
+ */
 
 static double time_left(const cost_work *w) { return w->o->run.deadline - clock_seconds(); }
 
 static void expect(cost_work *w, double more)
 {
     w->bar.expected = clock_seconds() - w->bar.begun + fmin(more, fmax(time_left(w), 1e-3));
+}
+
+static double still_to_do(const cost_work *w, int k, bool next)
+{
+    return cost_still_to_do(&w->list, k, next, w->of.asked, w->scene_seconds);
 }
 
 /* Climbs the ladder once as far as there is time for; *finest: the last rung. */
@@ -236,10 +197,11 @@ static bool climb(cost_work *w, int *finest)
 static bool run_reference(cost_work *w, int finest)
 {
     double rest    = still_to_do(w, finest, false);
-    double alone   = seconds_of(w, finest) * pow(TIGHTER, growth_at(w, finest));
+    double aim     = w->list.all[finest].run.accuracy / COST_TIGHTER;
+    double alone   = cost_predict(&w->list, finest, aim);
     double left    = time_left(w);
     run_options o  = w->o->run;
-    o.accuracy     = w->list.all[finest].run.accuracy / TIGHTER;
+    o.accuracy     = aim;
     o.seed         = w->o->run.seed + COST_RUNS;
     o.progress     = &w->inner;
     o.transport    = TRANSPORT_PATH;
@@ -263,9 +225,9 @@ static double rest_of(const cost_work *w)
     double rest = 0.0;
     for (int i = 0; i < w->list.count; i++) {
         const cost_setting *s = &w->list.all[i];
-        bool own              = i >= w->list.rungs && s->scene.off != w->plan.off;
+        double build          = s->own_scene && !s->made ? w->scene_seconds : 0.0;
         if (!s->dropped && !s->usual)
-            rest += (COST_RUNS - s->runs) * (seconds_of(w, i) + (own ? w->scene_seconds : 0.0));
+            rest += (COST_RUNS - s->runs) * (s->sample[0].seconds + build);
     }
     return rest;
 }
@@ -288,7 +250,7 @@ static void drop_costliest(cost_work *w)
 
 static bool first_pass(cost_work *w, int finest)
 {
-    double accuracy = w->list.all[rung_of_others(w, finest)].run.accuracy;
+    double accuracy = w->list.all[cost_rung_of_others(&w->list, finest, w->of.asked)].run.accuracy;
     for (int i = w->list.rungs; i < w->list.count; i++) {
         cost_setting *s = &w->list.all[i];
         s->run.accuracy = accuracy;
@@ -397,6 +359,8 @@ bool cost_run(arena *a, const study *s, const cost_options *o, cost_result *out,
         out->asked = w->of.asked;
         good       = run_all(w);
     }
+    for (int i = 0; w && i < w->list.count; i++)
+        arena_clear(&w->list.all[i].own);
     arena_clear(&scratch);
     return good;
 }

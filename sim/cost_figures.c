@@ -6,8 +6,8 @@
  */
 #include "sim/cost_parts.h"
 
-#include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 static const double student_t = 2.1314;

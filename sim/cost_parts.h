@@ -6,7 +6,11 @@
 
 #include "sim/cost.h"
 
-enum { COST_RUNS = 3, COST_MOST_SETTINGS = 80 };
+enum {
+    COST_RUNS          = 3,
+    COST_MOST_SETTINGS = 80,
+    COST_TIGHTER       = 3, /* the reference, than the finest rung */
+};
 
 /* ---- what is run (cost_subject.c) ------------------------------------------------------------ */
 
@@ -25,6 +29,7 @@ typedef struct cost_sample {
     int count;
     float *value, *half_width; /* half_width: INFINITY where none is known */
     double floor;              /* a tenth of their average (of a view: of the log-average) */
+    double reached;            /* relative: the accuracy that it has */
     double seconds;
     int64_t rays;
     run_end end;
@@ -41,8 +46,11 @@ typedef struct cost_setting {
     char text[64];
     scene_options scene;
     run_options run; /* accuracy NAN: that of its rung is found while running */
+    bool own_scene;  /* neither that as planned nor the one with all effects */
     bool usual;      /* it is what the rung of that accuracy is: figures are the same */
     bool dropped;
+    const scene *made; /* its scene, if that is kept from run to run; in `own` */
+    arena own;
     int runs;
     cost_sample sample[COST_RUNS];
 } cost_setting;
@@ -55,6 +63,18 @@ typedef struct cost_list {
 /* All that make sense for a scene that holds all effects, the plan for it, and the subject. */
 void cost_list_make(const scene *s, const plan *p, const cost_subject *of, const cost_options *o,
                     cost_list *out);
+
+/* ---- in what time (cost_time.c) -------------------------------------------------------------- */
+
+/* Seconds for an accuracy as rung k, which has run, tells it; but for the making of a scene. */
+double cost_predict(const cost_list *l, int k, double accuracy);
+
+/* The rung at whose accuracy settings besides the ladder run, if `finest` is its last. */
+int cost_rung_of_others(const cost_list *l, int finest, double asked);
+
+/* Seconds for all that is left to do once rungs up to k have run once, if rung k + 1 is run, too,
+ * (`next`) or the ladder ends there. */
+double cost_still_to_do(const cost_list *l, int k, bool next, double asked, double scene_seconds);
 
 /* ---- what is made of it (cost_figures.c) ----------------------------------------------------- */
 

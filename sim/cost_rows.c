@@ -167,6 +167,11 @@ static void add_rays(list_maker *m)
     }
 }
 
+static bool is_plain(const scene_measures *m)
+{
+    return !m->projection_test && !m->nearest_tables && !m->libm_tables && !m->point_sun;
+}
+
 void cost_list_make(const scene *s, const plan *p, const cost_subject *of, const cost_options *o,
                     cost_list *out)
 {
@@ -178,4 +183,8 @@ void cost_list_make(const scene *s, const plan *p, const cost_subject *of, const
     add_effects(&m);
     add_reckonings(&m);
     add_rays(&m);
+    for (int i = 0; i < out->count; i++) {
+        const scene_options *is = &out->all[i].scene;
+        out->all[i].own_scene   = !is_plain(&is->measures) || (is->off != p->off && is->off != 0);
+    }
 }

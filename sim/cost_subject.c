@@ -49,6 +49,7 @@ static bool take_grid(arena *a, arena *scratch, const scene *s, const study_grid
         out->half_width[k] = (float)r.half_width[k];
     }
     out->floor          = 0.1 * r.average;
+    out->reached        = r.reached;
     out->seconds        = r.seconds;
     out->rays           = r.rays;
     out->end            = r.end;
@@ -68,6 +69,7 @@ static bool take_view(arena *a, arena *scratch, const scene *s, const study_view
         out->half_width[k] = r.half_width[k];
     }
     out->floor          = 0.1 * r.log_average;
+    out->reached        = r.reached;
     out->seconds        = r.seconds;
     out->rays           = r.rays;
     out->end            = r.end;

@@ -322,6 +322,19 @@ void texture_mean(const texture *t, float rgba[4])
         rgba[c] = t->mean[c];
 }
 
+void texture_range(const texture *t, float low[4], float high[4])
+{
+    picture p = picture_of(t, &t->levels[0]);
+    for (int c = 0; c < 4; c++)
+        low[c] = high[c] = p.texels[c];
+    for (size_t y = 0; y < (size_t)p.height; y++)
+        for (size_t i = 0; i < 4 * (size_t)p.width; i++) {
+            float v    = p.texels[y * p.stride + i];
+            low[i % 4]  = fminf(low[i % 4], v);
+            high[i % 4] = fmaxf(high[i % 4], v);
+        }
+}
+
 double texture_share(const texture *t, float alpha)
 {
     picture p    = picture_of(t, &t->levels[0]);

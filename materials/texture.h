@@ -40,6 +40,8 @@ vtexel vtexture_lookup(const texture *t, vfloat u, vfloat v, vfloat width, vmask
 
 /* The mean over the picture: that of its last level too. */
 void texture_mean(const texture *t, float rgba[4]);
+/* The least and largest of each channel in the full picture. */
+void texture_range(const texture *t, float low[4], float high[4]);
 /* What share of the full picture's texels has at least that alpha, [0, 1]. */
 double texture_share(const texture *t, float alpha);
 /* All that it keeps in memory; and texture_desc.rgba, which is needed besides while it is made. */

@@ -15,6 +15,7 @@ static const char *const factor_extensions[] = { ".csv", ".exr", ".svg" };
 enum { SERIES_EXTENSIONS = 4, FACTOR_EXTENSIONS = 3 };
 
 typedef struct totals {
+    plan plan; /* of the daylight factor */
     double seconds;
     int64_t rays;
     bool interval_valid;
@@ -166,6 +167,12 @@ static int end_all_series(const command_context *c, const daylight *d, lux_error
     return code == EXIT_DONE ? t.code : code;
 }
 
+static bool run_planned(daylight *d, const plan *p, run_options *o, lux_error *err)
+{
+    plan_apply(p, o);
+    return daylight_run(d, o, err);
+}
+
 static int run_series(const command_context *c, const study *s, lux_error *err)
 {
     study_when when;
@@ -178,10 +185,14 @@ static int run_series(const command_context *c, const study *s, lux_error *err)
 
     int code      = EXIT_DONE;
     run_options o = command_run_options(c, 1);
+    plan p        = { 0 };
+    plan_options planned = command_plan_options(c, false);
+    planned.series       = true;
     double step_h = when.from_min < when.to_min ? when.step_min / 60.0 : (double)NAN;
-    if (!daylight_begin(&d, step_h, err) ||
+    if (!daylight_begin(&d, step_h, err) || !plan_make(d.scene, &planned, &p, c->notices, err) ||
+        !daylight_leave_out(&d, plan_without(&p), err) ||
         !check_places(c, d.scene, series_extensions, SERIES_EXTENSIONS, err) ||
-        !daylight_run(&d, &o, err))
+        !run_planned(&d, &p, &o, err))
         code = exit_code_of(err, true);
     daylight_end(&d);
     terminal_clear(c->terminal);
@@ -220,6 +231,7 @@ static int run_grid(const command_context *c, const scene *s, int index, totals 
     grid_result r;
     daylight_factor f;
     run_options o = command_run_options(c, s->study->grid_count - index);
+    plan_apply(&t->plan, &o);
     o.outside     = true;
     int code      = EXIT_DONE;
     if (!grid_run(&of_grid, s, &s->study->grids[index], &o, &r, err) ||
@@ -254,11 +266,11 @@ static int run_factor(const command_context *c, const study *s, lux_error *err)
     }
     scene_options o       = { .threads = command_threads(c), .lamps_off = true };
     const study *overcast = daylight_factor_study(c->a, s, err);
-    const scene *under    = overcast ? scene_new(c->a, overcast, &o, c->notices, err) : NULL;
+    totals t              = { .interval_valid = true };
+    const scene *under    = overcast ? command_planned(c, overcast, &o, false, &t.plan, err) : NULL;
     if (!under || !check_places(c, under, factor_extensions, FACTOR_EXTENSIONS, err))
         return exit_code_of(err, true);
 
-    totals t = { .interval_valid = true };
     int code = EXIT_DONE;
     if (!c->line->json)
         printf("daylight factor: %s\n", daylight_factor_sky(overcast));
@@ -303,6 +315,6 @@ const command command_daylight = {
         "from the sky, reflected outside (last surface `exterior` or ground), reflected inside;\n"
         "GRID.svg the plan.\n",
     .options = " -o --overwrite --date --from --to --step --factor --accuracy --time --variant "
-               "--threads --seed --direct-only --json --quiet ",
+               "--threads --seed --direct-only --transport --no --only --json --quiet ",
     .run     = daylight_command,
 };

@@ -1,6 +1,5 @@
 /* sim/cmd_grid.c -- lux4 grid: how much light arrives on the study's grids. */
 #include "sim/command.h"
-#include "sim/effects.h"
 #include "sim/grid_write.h"
 #include "sim/schedule.h"
 
@@ -15,7 +14,7 @@ typedef struct totals {
     double seconds;
     int64_t rays;
     bool interval_valid;
-    bool outside;     /* some sensor lies outside of the room */
+    plan plan;
     double *averages; /* lx, of each grid; NAN: it did not run */
     int name_width;   /* of the table */
     int printed;
@@ -108,26 +107,24 @@ static void print_json(const grid_result *r, bool first)
     fputs("]}", stdout);
 }
 
-static void print_effects_json(const effects *all)
+static void print_effects_json(const plan *p)
 {
     const char *between = "";
     fputs(",\"effects\":[", stdout);
     for (int e = 0; e < EFFECTS; e++)
-        if (all->on[e]) {
+        if (p->effects[e].on) {
             printf("%s\"%s\"", between, effect_name((effect)e));
             between = ",";
         }
     putchar(']');
 }
 
-static void print_json_end(const scene *s, const command_context *c, const schedule *list,
-                           const totals *t)
+static void print_json_end(const scene *s, const schedule *list, const totals *t)
 {
-    effects all = effects_of_grids(s, c->line->direct_only, t->outside);
     printf("%s]", t->printed ? "" : "{\"grids\":[");
     json_field("seconds", t->seconds);
     json_field("rays", (double)t->rays);
-    print_effects_json(&all);
+    print_effects_json(&t->plan);
     if (list) {
         fputs(",\"schedule\":", stdout);
         schedule_print_json(stdout, s, list, t->averages);
@@ -157,6 +154,7 @@ static int run_one(const command_context *c, const scene *s, int index, totals *
     arena of_grid = { 0 };
     run_options o = command_run_options(c, s->study->grid_count - index);
     int code      = EXIT_DONE;
+    plan_apply(&t->plan, &o);
     if (!grid_run(&of_grid, s, &s->study->grids[index], &o, &r, err))
         code = exit_code_of(err, true);
     if (code == EXIT_DONE) {
@@ -173,8 +171,6 @@ static int run_one(const command_context *c, const scene *s, int index, totals *
                 r.grid->name);
         t->printed++;
         t->averages[index] = r.average;
-        for (int k = 0; k < r.sensor_count; k++)
-            t->outside = t->outside || !scene_is_in_room(s, r.sensors[k].at);
         t->seconds += r.seconds;
         t->rays += r.rays;
         t->interval_valid &= !r.left_to_chance;
@@ -199,7 +195,7 @@ static int run_all(const command_context *c, const scene *s, totals *t, lux_erro
 static bool begin_totals(const command_context *c, const scene *s, totals *t, lux_error *err)
 {
     int count   = s->study->grid_count;
-    *t          = (totals){ .interval_valid = true };
+    t->interval_valid = true;
     t->averages = arena_array(c->a, double, (size_t)count, err);
     for (int i = 0; t->averages && i < count; i++) {
         t->averages[i] = (double)NAN;
@@ -210,7 +206,8 @@ static bool begin_totals(const command_context *c, const scene *s, totals *t, lu
 
 static int grid_command(const command_context *c, lux_error *err)
 {
-    const scene *s = command_scene(c, err);
+    totals t       = { 0 };
+    const scene *s = command_planned_scene(c, false, &t.plan, err);
     if (!s)
         return exit_code_of(err, true);
     if (s->study->grid_count == 0) {
@@ -220,14 +217,13 @@ static int grid_command(const command_context *c, lux_error *err)
     if (!command_check_grids(s, &c->line->place, extensions, EXTENSIONS, err))
         return exit_code_of(err, true);
 
-    totals t;
     schedule list;
     bool listed = c->line->schedule;
     if (!begin_totals(c, s, &t, err) || (listed && !schedule_make(c->a, s, &list, c->notices, err)))
         return exit_code_of(err, true);
     int code = run_all(c, s, &t, err);
     if (c->line->json)
-        print_json_end(s, c, listed ? &list : NULL, &t);
+        print_json_end(s, listed ? &list : NULL, &t);
     else if (t.printed && listed)
         schedule_print(stdout, s, &list, t.averages);
     if (!c->line->json && t.printed)
@@ -245,7 +241,7 @@ const command command_grid = {
             "--schedule lists what is installed, initial and not dimmed, and its load: on the\n"
             "room's floor, or of a study without `room` on each grid that looks up.\n",
     .options = " -o --overwrite --accuracy --time --variant --threads --seed --direct-only "
-               "--groups --schedule --json "
+               "--transport --no --only --groups --schedule --json "
                "--quiet ",
     .run     = grid_command,
 };

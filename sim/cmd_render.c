@@ -38,6 +38,7 @@ static void print_view(const command_context *c, const view_result *r, const cha
 }
 
 typedef struct totals {
+    plan plan;
     int printed; /* views */
     int code;    /* EXIT_INACCURATE once a view was */
 } totals;
@@ -53,6 +54,7 @@ static int run_view(const command_context *c, const scene *s, int index, totals 
     const char *png =
         exr ? output_path(c->a, s->study, &c->line->place, v->name, ".png", err) : NULL;
     int code = EXIT_DONE;
+    plan_apply(&all->plan, &o);
     if (!png || !view_run(&of_view, s, v, &o, &r, err))
         code = exit_code_of(err, true);
     if (code == EXIT_DONE) {
@@ -76,7 +78,8 @@ static int run_view(const command_context *c, const scene *s, int index, totals 
 
 static int render_command(const command_context *c, lux_error *err)
 {
-    const scene *s = command_scene(c, err);
+    totals all     = { 0 };
+    const scene *s = command_planned_scene(c, true, &all.plan, err);
     if (!s)
         return exit_code_of(err, true);
     if (s->study->view_count == 0) {
@@ -93,8 +96,7 @@ static int render_command(const command_context *c, lux_error *err)
     if (!image_pictures_ready(err))
         return exit_code_of(err, false);
 
-    totals all = { 0 };
-    int code   = EXIT_DONE;
+    int code = EXIT_DONE;
     for (int i = 0; i < s->study->view_count && code == EXIT_DONE; i++) {
         code = run_view(c, s, i, &all, err);
         if (code == EXIT_INACCURATE) /* the next one may do better */
@@ -115,7 +117,7 @@ const command command_render = {
                "accuracy asked for, of their value or of a tenth of the picture's log-average: 10 %\n"
                "unless --accuracy says otherwise (`accuracy` in the study is for grids).\n",
     .options = " -o --overwrite --accuracy --time --variant --threads --seed --direct-only "
-               "--groups --half "
+               "--transport --no --only --groups --half "
                "--exposure "
                "--json --quiet ",
     .run     = render_command,

@@ -20,6 +20,38 @@ const scene *command_scene(const command_context *c, lux_error *err)
     return s ? scene_new(c->a, s, &o, c->notices, err) : NULL;
 }
 
+plan_options command_plan_options(const command_context *c, bool views)
+{
+    const command_line *l = c->line;
+    return (plan_options){ .accuracy    = l->accuracy,
+                           .direct_only = l->direct_only,
+                           .views       = views,
+                           .no          = l->off,
+                           .only        = l->only,
+                           .has_only    = l->has_only,
+                           .transport   = l->transport };
+}
+
+/* What the first scene told of holds for the second. */
+const scene *command_planned(const command_context *c, const study *s, const scene_options *o,
+                             bool views, plan *out, lux_error *err)
+{
+    plan_options asked  = command_plan_options(c, views);
+    const scene *all    = scene_new(c->a, s, o, c->notices, err);
+    scene_options built = *o;
+    if (!all || !plan_make(all, &asked, out, c->notices, err))
+        return NULL;
+    built.off = plan_without(out);
+    return built.off ? scene_new(c->a, s, &built, NULL, err) : all;
+}
+
+const scene *command_planned_scene(const command_context *c, bool views, plan *out, lux_error *err)
+{
+    scene_options o = { .threads = command_threads(c), .layered = c->line->groups };
+    const study *s  = command_study(c, err);
+    return s ? command_planned(c, s, &o, views, out, err) : NULL;
+}
+
 int command_threads(const command_context *c)
 {
     return c->line->threads ? c->line->threads : parallel_processors();
@@ -36,14 +68,14 @@ run_options command_run_options(const command_context *c, int left)
                           .progress    = c->progress };
 }
 
-void command_grid_remarks(const grid_result *plan, run_end end, int missed, double asked,
+void command_grid_remarks(const grid_result *r, run_end end, int missed, double asked,
                           const char *left_to_chance)
 {
-    if (plan->left_out)
-        printf("  %d sensor%s left out: inside furniture\n", plan->left_out,
-               plan->left_out > 1 ? "s" : "");
+    if (r->left_out)
+        printf("  %d sensor%s left out: inside furniture\n", r->left_out,
+               r->left_out > 1 ? "s" : "");
     if (end != RUN_DONE || missed)
-        printf("  accuracy: %d of %d sensors are not within %g %%%s\n", missed, plan->sensor_count,
+        printf("  accuracy: %d of %d sensors are not within %g %%%s\n", missed, r->sensor_count,
                100.0 * asked, end == RUN_DONE ? " of all as dimmed (layers are)" : " yet");
     if (left_to_chance)
         printf("  interval not valid: %s\n", left_to_chance);

@@ -5,6 +5,7 @@
 #include "core/notice.h"
 #include "sim/grid.h"
 #include "sim/output.h"
+#include "sim/plan.h"
 #include "sim/terminal.h"
 
 #include <stdio.h>
@@ -74,7 +75,8 @@ typedef struct command {
 } command;
 
 extern const command command_grid, command_render, command_check, command_photometry,
-    command_material, command_mix, command_sun, command_sky, command_daylight, command_cost;
+    command_material, command_mix, command_sun, command_sky, command_daylight, command_plan,
+    command_cost;
 
 /* Reads the words behind the command's name. False, with *err, for what cannot be. */
 bool command_line_read(arena *a, const command *c, int count, char *const *words, command_line *out,
@@ -87,6 +89,13 @@ void command_options_print(FILE *to, const command *c);
 const study *command_study(const command_context *c, lux_error *err);
 const scene *command_scene(const command_context *c, lux_error *err);
 
+/* The same, planned for its grids or its views, and built without what the plan leaves out. */
+const scene *command_planned_scene(const command_context *c, bool views, plan *out,
+                                   lux_error *err);
+const scene *command_planned(const command_context *c, const study *s, const scene_options *o,
+                             bool views, plan *out, lux_error *err);
+plan_options command_plan_options(const command_context *c, bool views);
+
 /* Threads to run on; and the options of a run. */
 int command_threads(const command_context *c);
 /* `left`: grids or views that are still to run, this one included, among which what is left of
@@ -94,7 +103,7 @@ int command_threads(const command_context *c);
 run_options command_run_options(const command_context *c, int left);
 
 /* What a table says below a grid of its sensors, of accuracy and of intervals. */
-void command_grid_remarks(const grid_result *plan, run_end end, int missed, double asked,
+void command_grid_remarks(const grid_result *r, run_end end, int missed, double asked,
                           const char *left_to_chance);
 
 /* The exit code for why a run ended, with *err saying it of `what` ("grid desk"). */

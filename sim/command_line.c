@@ -32,6 +32,9 @@ static const option options[] = {
     { "--threads", "N", "run on N threads (default: all processors)" },
     { "--seed", "N", "another number, another set of random samples (default 1)" },
     { "--direct-only", NULL, "leave interreflection out" },
+    { "--transport", "T", "interreflection by path, maps or auto (default: as lux4 plan says)" },
+    { "--no", "EFFECT,..", "leave effects out that lux4 plan lists (may stand several times)" },
+    { "--only", "EFFECT,..", "simulate these alone; all: leave out nothing, needed or not" },
     { "--groups", NULL, "also a layer of each group of lamps, undimmed, for lux4 mix", true },
     { "--schedule", NULL, "also the luminaires: counts, watts, lm/W, W/m2", true },
     { "--date", "D[..D]", "this date, or all from one to another, in place of the study's `when`",
@@ -49,12 +52,9 @@ static const option options[] = {
     { "--write", "FILE", "convert to .ies or .ldt", true },
     { "--json", NULL, "results as one JSON object on stdout" },
     { "--quiet", NULL, "no progress bar, no warnings" },
-    { "--transport", "", NULL },
     { "--save-maps", "", NULL },
     { "--resume", NULL, NULL },
     { "--tone", "", NULL },
-    { "--no", "", NULL },
-    { "--only", "", NULL },
     { "--false-color", "", NULL },
 };
 enum { OPTIONS = sizeof options / sizeof *options };
@@ -127,6 +127,37 @@ static bool percent(const char *text, double *out, lux_error *err)
                       text);
     *out /= 100.0;
     return true;
+}
+
+/* "sun,sky" as bits 1 << effect, added to *bits; `all` where that has a meaning. */
+static bool effect_list(const char *option_name, const char *text, bool all_too, uint32_t *bits,
+                        lux_error *err)
+{
+    for (const char *at = text;; at++) {
+        size_t length = strcspn(at, ",");
+        effect e      = effect_find(at, length);
+        bool all      = all_too && length == 3 && !strncmp(at, "all", 3);
+        if (e == EFFECTS && !all)
+            return failed(err, ERR_ARGUMENT, "%s %s: `%.*s` is no effect (lux4 plan lists them)",
+                          option_name, text, (int)(length < 40 ? length : 40), at);
+        *bits |= all ? (1u << EFFECTS) - 1 : 1u << e;
+        at += length;
+        if (!*at)
+            return true;
+    }
+}
+
+static bool transport_named(const char *text, transport *out, lux_error *err)
+{
+    static const char *const names[] = { [TRANSPORT_AUTO] = "auto",
+                                         [TRANSPORT_PATH] = "path",
+                                         [TRANSPORT_MAPS] = "maps" };
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (!strcmp(text, names[i])) {
+            *out = (transport)i;
+            return true;
+        }
+    return failed(err, ERR_ARGUMENT, "--transport %s: expected path, maps or auto", text);
 }
 
 /* Of lux4 sun; *mine: the option is one of these. */
@@ -205,6 +236,13 @@ static bool take(command_line *l, const char *name, const char *value, lux_error
         l->place.overwrite = true;
     } else if (!strcmp(name, "--direct-only")) {
         l->direct_only = true;
+    } else if (!strcmp(name, "--transport")) {
+        return transport_named(value, &l->transport, err);
+    } else if (!strcmp(name, "--no")) {
+        return effect_list(name, value, false, &l->off, err);
+    } else if (!strcmp(name, "--only")) {
+        l->has_only = true;
+        return effect_list(name, value, true, &l->only, err);
     } else if (!strcmp(name, "--groups")) {
         l->groups = true;
     } else if (!strcmp(name, "--schedule")) {

@@ -31,7 +31,6 @@ typedef struct cost_work {
     cost_subject of;
     const gltf **models;
     const scene *whole, *usual; /* with all effects; as planned */
-    plan plan;
     cost_list list;
     double scene_seconds; /* to build a scene */
     cost_sample reference;
@@ -78,22 +77,41 @@ static const scene *build(cost_work *w, arena *a, const scene_options *like, not
     return s;
 }
 
-static bool make_scenes(cost_work *w)
+static bool make_plan(const cost_work *w, double accuracy, plan *out, notices *n)
 {
-    scene_options o = { .threads = w->o->run.threads };
-    notices ignored = { .a = w->a };
-    w->whole        = read_models(w) ? build(w, w->a, &o, w->notices, w->err) : NULL;
-    if (!w->whole)
-        return false;
     plan_options p = w->o->plan;
-    p.accuracy     = w->of.asked;
+    p.accuracy     = accuracy;
     p.direct_only  = w->o->run.direct_only;
     p.views        = w->of.grid == NULL;
-    if (!plan_make(w->a, w->whole, &p, &w->plan, w->notices, w->err))
+    return plan_make(w->whole, &p, out, n, w->err);
+}
+
+/* Each rung as it is planned for its own accuracy. */
+static bool plan_rungs(cost_work *w)
+{
+    for (int k = 0; k < w->list.rungs; k++) {
+        cost_setting *s = &w->list.all[k];
+        plan own;
+        s->run = w->o->run;
+        if (!make_plan(w, s->accuracy, &own, NULL))
+            return false;
+        plan_apply(&own, &s->run);
+        s->scene.off = plan_without(&own);
+    }
+    return true;
+}
+
+static bool make_scenes(cost_work *w)
+{
+    plan p;
+    scene_options o = { .threads = w->o->run.threads };
+    w->whole        = read_models(w) ? build(w, w->a, &o, w->notices, w->err) : NULL;
+    if (!w->whole || !make_plan(w, w->of.asked, &p, w->notices))
         return false;
-    o.off    = w->plan.off;
-    w->usual = o.off ? build(w, w->a, &o, &ignored, w->err) : w->whole;
-    return w->usual != NULL;
+    cost_list_make(w->whole, &p, &w->of, w->o, &w->list);
+    o.off    = w->list.usual_off;
+    w->usual = o.off ? build(w, w->a, &o, NULL, w->err) : w->whole;
+    return w->usual && plan_rungs(w);
 }
 
 static bool is_small(const scene *s)
@@ -104,11 +122,10 @@ static bool is_small(const scene *s)
 /* The scene of a setting; in s->own if it has one of its own. */
 static const scene *scene_of(cost_work *w, cost_setting *s, lux_error *err)
 {
-    notices ignored = { .a = &s->own };
-    if (!s->own_scene)
-        return s->scene.off == w->plan.off ? w->usual : w->whole;
+    if (!cost_own_scene(&w->list, s))
+        return s->scene.off == w->list.usual_off ? w->usual : w->whole;
     if (!s->made)
-        s->made = build(w, &s->own, &s->scene, &ignored, err);
+        s->made = build(w, &s->own, &s->scene, NULL, err);
     return s->made;
 }
 
@@ -137,6 +154,7 @@ static bool run_once(cost_work *w, cost_setting *s)
 {
     lux_error why   = { 0 };
     run_options o   = s->run;
+    o.accuracy      = s->accuracy;
     o.seed          = w->o->run.seed + (uint32_t)s->runs;
     o.deadline      = w->o->run.deadline;
     o.progress      = &w->inner;
@@ -197,7 +215,7 @@ static bool climb(cost_work *w, int *finest)
 static bool run_reference(cost_work *w, int finest)
 {
     double rest    = still_to_do(w, finest, false);
-    double aim     = w->list.all[finest].run.accuracy / COST_TIGHTER;
+    double aim     = w->list.all[finest].accuracy / COST_TIGHTER;
     double alone   = cost_predict(&w->list, finest, aim);
     double left    = time_left(w);
     run_options o  = w->o->run;
@@ -225,7 +243,7 @@ static double rest_of(const cost_work *w)
     double rest = 0.0;
     for (int i = 0; i < w->list.count; i++) {
         const cost_setting *s = &w->list.all[i];
-        double build          = s->own_scene && !s->made ? w->scene_seconds : 0.0;
+        double build          = cost_own_scene(&w->list, s) && !s->made ? w->scene_seconds : 0.0;
         if (!s->dropped && !s->usual)
             rest += (COST_RUNS - s->runs) * (s->sample[0].seconds + build);
     }
@@ -250,10 +268,10 @@ static void drop_costliest(cost_work *w)
 
 static bool first_pass(cost_work *w, int finest)
 {
-    double accuracy = w->list.all[cost_rung_of_others(&w->list, finest, w->of.asked)].run.accuracy;
+    double accuracy = w->list.all[cost_rung_of_others(&w->list, finest, w->of.asked)].accuracy;
     for (int i = w->list.rungs; i < w->list.count; i++) {
         cost_setting *s = &w->list.all[i];
-        s->run.accuracy = accuracy;
+        s->accuracy     = accuracy;
         if (s->usual)
             continue;
         s->dropped = must_stop(w);
@@ -280,9 +298,9 @@ static void make_row(const cost_work *w, const cost_setting *s, cost_row *to)
 {
     const cost_setting *from = s;
     for (int k = 0; s->usual && k < w->list.rungs; k++)
-        if (w->list.all[k].run.accuracy == s->run.accuracy)
+        if (w->list.all[k].accuracy == s->accuracy)
             from = &w->list.all[k];
-    *to = (cost_row){ .ladder = s->ladder, .accuracy = s->run.accuracy };
+    *to = (cost_row){ .ladder = s->ladder, .accuracy = s->accuracy };
     memcpy(to->setting, s->text, sizeof to->setting);
     cost_row_figures(from->sample, from->runs, &w->reference, w->of.asked, to);
 }
@@ -319,7 +337,6 @@ static bool run_all(cost_work *w)
     int finest;
     if (!make_scenes(w))
         return false;
-    cost_list_make(w->whole, &w->plan, &w->of, w->o, &w->list);
     if (!climb(w, &finest))
         return false;
     if (w->stopped)

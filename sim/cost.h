@@ -61,7 +61,7 @@ typedef struct cost_result {
     const char *left_to_chance; /* why the reference's intervals are not valid; NULL: they are */
     int dropped_count;          /* settings for which there was no time */
     const char *const *dropped;
-    char advice[240];
+    char advice[320];
     run_end end; /* RUN_LATE: time was out earlier than was planned, runs are missing */
 } cost_result;
 

@@ -45,8 +45,8 @@ typedef struct cost_setting {
     cost_ladder ladder;
     char text[64];
     scene_options scene;
-    run_options run; /* accuracy NAN: that of its rung is found while running */
-    bool own_scene;  /* neither that as planned nor the one with all effects */
+    run_options run;
+    double accuracy; /* relative; NAN: that of the rung where all such settings run */
     bool usual;      /* it is what the rung of that accuracy is: figures are the same */
     bool dropped;
     const scene *made; /* its scene, if that is kept from run to run; in `own` */
@@ -56,9 +56,18 @@ typedef struct cost_setting {
 } cost_setting;
 
 typedef struct cost_list {
-    int count, rungs; /* the first so many are the ladder of accuracy, from coarse to fine */
+    int count, rungs;   /* the first so many are the ladder of accuracy, from coarse to fine */
+    uint32_t usual_off; /* of the scene as planned for the study's accuracy */
     cost_setting all[COST_MOST_SETTINGS];
 } cost_list;
+
+/* Whether it needs a scene that is neither the usual one nor the one with all effects. */
+static inline bool cost_own_scene(const cost_list *l, const cost_setting *s)
+{
+    const scene_measures *m = &s->scene.measures;
+    bool plain = !m->projection_test && !m->nearest_tables && !m->libm_tables && !m->point_sun;
+    return !plain || (s->scene.off != l->usual_off && s->scene.off != 0);
+}
 
 /* All that make sense for a scene that holds all effects, the plan for it, and the subject. */
 void cost_list_make(const scene *s, const plan *p, const cost_subject *of, const cost_options *o,

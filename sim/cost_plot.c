@@ -209,20 +209,28 @@ static int by_height(const void *a, const void *b)
     return (p->wanted > q->wanted) - (p->wanted < q->wanted);
 }
 
-/* Moves names down until none covers another, and up again what is then below the frame. */
+/* Moves names apart by as little as can be, in the mean of squares: those that would cover each
+ * other stand together about the middle of where they belong (pool adjacent violators). */
 static void spread_names(cost_name *names, int count)
 {
-    double step      = count > 1 ? fmin(NAME_STEP, (BOTTOM - TOP) / (count - 1)) : NAME_STEP;
-    double free_from = TOP, free_to = BOTTOM;
+    double step = count > 1 ? fmin(NAME_STEP, (BOTTOM - TOP) / (count - 1)) : NAME_STEP;
+    double sum[MOST_NAMES]; /* of wanted - i step, in each pool */
+    int size[MOST_NAMES], pools = 0, at = 0;
     qsort(names, (size_t)count, sizeof *names, by_height);
     for (int i = 0; i < count; i++) {
-        names[i].y = fmax(names[i].wanted, free_from);
-        free_from  = names[i].y + step;
+        sum[pools]    = names[i].wanted - i * step;
+        size[pools++] = 1;
+        while (pools > 1 && sum[pools - 2] * size[pools - 1] > sum[pools - 1] * size[pools - 2]) {
+            sum[pools - 2] += sum[pools - 1];
+            size[pools - 2] += size[pools - 1];
+            pools--;
+        }
     }
-    for (int i = count - 1; i >= 0; i--) {
-        names[i].y = fmin(names[i].y, free_to);
-        free_to    = names[i].y - step;
-    }
+    for (int k = 0; k < pools; k++)
+        for (int i = 0; i < size[k]; i++, at++) {
+            double y    = fmin(sum[k] / size[k], BOTTOM - (count - 1) * step);
+            names[at].y = fmax(y, TOP) + at * step;
+        }
 }
 
 static void draw_names(const cost_picture *p)

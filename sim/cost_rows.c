@@ -2,6 +2,7 @@
 #include "sim/cost_parts.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Whether interreflection by illumination maps is wired into grids and views. */
@@ -31,12 +32,10 @@ static cost_setting *add(list_maker *m, cost_ladder ladder, const char *text)
     cost_list *to = m->to;
     if (to->count == COST_MOST_SETTINGS)
         return &to->all[to->count - 1];
-    cost_setting *made  = &to->all[to->count++];
-    *made               = (cost_setting){ .ladder = ladder, .run = m->o->run };
-    made->scene         = (scene_options){ .threads = m->o->run.threads, .off = m->p->off };
-    made->run.bound     = m->p->bound;
-    made->run.transport = m->p->transport;
-    made->run.accuracy  = (double)NAN;
+    cost_setting *made = &to->all[to->count++];
+    *made       = (cost_setting){ .ladder = ladder, .run = m->o->run, .accuracy = (double)NAN };
+    made->scene = (scene_options){ .threads = m->o->run.threads, .off = plan_without(m->p) };
+    plan_apply(m->p, &made->run);
     snprintf(made->text, sizeof made->text, "%s", text);
     return made;
 }
@@ -45,7 +44,7 @@ static void add_rung(list_maker *m, double percent)
 {
     char text[64];
     snprintf(text, sizeof text, "--accuracy %g%%", percent);
-    add(m, COST_ACCURACY, text)->run.accuracy = percent / 100.0;
+    add(m, COST_ACCURACY, text)->accuracy = percent / 100.0;
     m->to->rungs++;
 }
 
@@ -111,15 +110,18 @@ static void add_effects(list_maker *m)
             continue;
         snprintf(text, sizeof text, is->on ? "--no %s" : "with %s", effect_name((effect)e));
         cost_setting *made = add(m, COST_EFFECTS, text);
-        made->scene.off ^= 1u << e;
+        if (e != EFFECT_INTERREFLECTION) /* runs do without by themselves */
+            made->scene.off ^= 1u << e;
         made->run.bound -= is->on ? 0.0 : fmin(is->bound, made->run.bound);
-        made->run.direct_only |= e == EFFECT_INTERREFLECTION && is->on;
+        if (e == EFFECT_INTERREFLECTION)
+            made->run.direct_only = is->on;
     }
     if (!some_off)
         return;
-    cost_setting *made = add(m, COST_EFFECTS, "--only all");
-    made->scene.off    = 0;
-    made->run.bound    = 0.0;
+    cost_setting *made    = add(m, COST_EFFECTS, "--only all");
+    made->scene.off       = 0;
+    made->run.bound       = 0.0;
+    made->run.direct_only = m->o->run.direct_only;
 }
 
 /* What the scene has that can be reckoned in other ways. */
@@ -167,24 +169,16 @@ static void add_rays(list_maker *m)
     }
 }
 
-static bool is_plain(const scene_measures *m)
-{
-    return !m->projection_test && !m->nearest_tables && !m->libm_tables && !m->point_sun;
-}
-
 void cost_list_make(const scene *s, const plan *p, const cost_subject *of, const cost_options *o,
                     cost_list *out)
 {
     list_maker m = { s, p, of, o, out };
     out->count = out->rungs = 0;
+    out->usual_off          = plan_without(p);
     add_accuracies(&m);
     add_bounces(&m);
     add_transports(&m);
     add_effects(&m);
     add_reckonings(&m);
     add_rays(&m);
-    for (int i = 0; i < out->count; i++) {
-        const scene_options *is = &out->all[i].scene;
-        out->all[i].own_scene   = !is_plain(&is->measures) || (is->off != p->off && is->off != 0);
-    }
 }

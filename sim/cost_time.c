@@ -28,15 +28,14 @@ static double growth_at(const cost_list *l, int k)
 double cost_predict(const cost_list *l, int k, double accuracy)
 {
     const cost_sample *s = &l->all[k].sample[0];
-    double farther =
-        isfinite(s->reached) ? s->reached / accuracy : l->all[k].run.accuracy / accuracy;
+    double farther = isfinite(s->reached) ? s->reached / accuracy : l->all[k].accuracy / accuracy;
     return s->seconds * pow(fmax(farther, 1.0), growth_at(l, k));
 }
 
 int cost_rung_of_others(const cost_list *l, int finest, double asked)
 {
     int k = 0;
-    while (k < finest && l->all[k].run.accuracy > asked * (1.0 + 1e-9))
+    while (k < finest && l->all[k].accuracy > asked * (1.0 + 1e-9))
         k++;
     return k;
 }
@@ -44,14 +43,14 @@ int cost_rung_of_others(const cost_list *l, int finest, double asked)
 double cost_still_to_do(const cost_list *l, int k, bool next, double asked, double scene_seconds)
 {
     int finest     = next ? k + 1 : k;
-    double coming  = next ? cost_predict(l, k, l->all[finest].run.accuracy) : 0.0;
-    double sum     = cost_predict(l, k, l->all[finest].run.accuracy / COST_TIGHTER);
+    double coming  = next ? cost_predict(l, k, l->all[finest].accuracy) : 0.0;
+    double sum     = cost_predict(l, k, l->all[finest].accuracy / COST_TIGHTER);
     int at         = cost_rung_of_others(l, finest, asked);
     double another = at > k ? coming : l->all[at].sample[0].seconds;
     for (int i = 0; i <= k; i++)
         sum += (COST_RUNS - 1) * l->all[i].sample[0].seconds;
     for (int i = l->rungs; i < l->count; i++)
         if (!l->all[i].usual)
-            sum += COST_RUNS * another + (l->all[i].own_scene ? scene_seconds : 0.0);
+            sum += COST_RUNS * another + (cost_own_scene(l, &l->all[i]) ? scene_seconds : 0.0);
     return sum + COST_RUNS * coming;
 }

@@ -65,7 +65,8 @@ static bool make_scene(daylight *d, int batch, lux_error *err)
     int first       = first_of_batch(d, batch);
     scene_options o = { .threads      = d->threads,
                         .moments      = d->moments + first,
-                        .moment_count = first_of_batch(d, batch + 1) - first };
+                        .moment_count = first_of_batch(d, batch + 1) - first,
+                        .off          = d->off };
     d->scene        = scene_new(&d->of_scene, d->study, &o, d->notices, err);
     return d->scene != NULL;
 }
@@ -129,6 +130,12 @@ bool daylight_begin(daylight *d, double step_h, lux_error *err)
             return false;
     tell_nights(d);
     return true;
+}
+
+bool daylight_leave_out(daylight *d, uint32_t off, lux_error *err)
+{
+    d->off = off;
+    return off == 0 || make_scene(d, 0, err);
 }
 
 void daylight_end(daylight *d)

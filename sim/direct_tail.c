@@ -89,7 +89,7 @@ static void ask_strong(direct_sensor *w, const vsurface *at, vmask active, const
                        const vfloat *most, sensor_sum *sums)
 {
     double share = (double)tail_share * w->ask.accuracy;
-    bool few     = scene_lamp_count(w->s) <= ASKED_LAMPS;
+    bool few     = w->s->asks_all || scene_lamp_count(w->s) <= ASKED_LAMPS;
     for (int layer = 0; layer < w->layers; layer++) {
         float weakest[LANES] = { 0 };
         for (int bits = few ? 0 : vbits(active); bits; bits &= bits - 1) {

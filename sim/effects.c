@@ -3,6 +3,8 @@
 
 #include "sim/direct_sensor.h"
 
+#include <string.h>
+
 const char *effect_name(effect e)
 {
     static const char *const names[EFFECTS] = {
@@ -26,6 +28,15 @@ const char *effect_name(effect e)
         [EFFECT_ANTIALIASING]    = "antialiasing",
     };
     return names[e];
+}
+
+effect effect_find(const char *name, size_t length)
+{
+    int e = 0;
+    while (e < EFFECTS && (strlen(effect_name((effect)e)) != length ||
+                           strncmp(effect_name((effect)e), name, length) != 0))
+        e++;
+    return (effect)e;
 }
 
 static bool is_dark(const light *l) { return !(light_bounds_of(l).peak > 0.0f); }
@@ -102,5 +113,14 @@ effects effects_of_grids(const scene *s, bool direct_only, bool outside)
     on[EFFECT_COLOR] = s->lights_differ || (lit && surfaces_are_colored(s));
     for (int i = 0; i < s->set_count; i++)
         on[EFFECT_MANY_LIGHTS] |= s->sets[i].tree && (back || s->glows);
+    return all;
+}
+
+effects effects_of_views(const scene *s, bool direct_only)
+{
+    effects all                  = effects_of_grids(s, direct_only, false);
+    all.on[EFFECT_ANTIALIASING] = true;
+    if (scene_is_lit(s))
+        add_materials(s, true, &all);
     return all;
 }

@@ -33,6 +33,12 @@ typedef struct effects {
 /* Of a run on grids; `outside`: some sensor is where lamps that are `clear` may be hidden. */
 effects effects_of_grids(const scene *s, bool direct_only, bool outside);
 
+/* Of a run on views: what surfaces look like counts, too. */
+effects effects_of_views(const scene *s, bool direct_only);
+
 const char *effect_name(effect e); /* "area-lights" */
+
+/* The effect of that name, of so many characters; EFFECTS: there is none. */
+effect effect_find(const char *name, size_t length);
 
 #endif

@@ -188,6 +188,28 @@ static bool found_nothing(const grid_run_state *g, const accuracy_result *got, s
     return nothing;
 }
 
+/* What the plan left out may be that far off, of max(value, a tenth of the average). */
+static void widen(const grid_run_state *g, const double *e, double *half_width)
+{
+    int n          = g->r->sensor_count;
+    double average = 0.0;
+    for (int k = 0; k < n; k++)
+        average += e[k] / n;
+    for (int k = 0; k < n; k++)
+        half_width[k] += g->o->bound * fmax(e[k], 0.1 * average);
+}
+
+static void widen_all(const grid_run_state *g, grid_result *r)
+{
+    if (g->o->bound == 0.0)
+        return;
+    widen(g, r->illuminance, r->half_width);
+    for (int l = 0; l < r->layer_count; l++)
+        widen(g, r->layers[l].illuminance, r->layers[l].half_width);
+    for (int h = 0; h < r->moment_count; h++)
+        widen(g, r->moments[h].illuminance, r->moments[h].half_width);
+}
+
 static void take_results(const grid_run_state *g, const accuracy_result *got, grid_result *r)
 {
     const grid_channels *c = &g->channels;
@@ -209,6 +231,7 @@ static void take_results(const grid_run_state *g, const accuracy_result *got, gr
         if (r->electric)
             r->electric[k] += mean_of(g, got, c->electric, k);
     }
+    widen_all(g, r);
 }
 
 /* Lamps may all be out: then darkness is no doubt. */
@@ -228,7 +251,7 @@ static bool sample_rest(arena *a, grid_run_state *g, grid_result *r, lux_error *
                         .apart         = g->moments > 0,
                         .exact         = g->known,
                         .bound         = g->bound,
-                        .accuracy      = r->asked,
+                        .accuracy      = r->asked - g->o->bound,
                         .needed        = 1.0,
                         .floor         = FLOOR_MEAN,
                         .first_samples = g->s->mirrors ? MIRROR_SAMPLES / SCRAMBLES : 8,
@@ -249,7 +272,7 @@ static bool sample_rest(arena *a, grid_run_state *g, grid_result *r, lux_error *
     if (r->in_doubt && !r->left_to_chance && !g->o->direct_only && anything_shines(g->s))
         r->left_to_chance = "some sensors see surfaces from where no sample found any light back";
     r->end     = got.end;
-    r->reached = got.reached;
+    r->reached = got.reached + g->o->bound;
     return true;
 }
 

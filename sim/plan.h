@@ -31,7 +31,8 @@ typedef struct plan_effect {
 
 typedef struct plan {
     plan_effect effects[EFFECTS];
-    uint32_t off; /* bits 1 << effect, for scene_options.off */
+    double accuracy; /* relative: what was planned for */
+    uint32_t off;    /* bits 1 << effect: what the scene holds and is to be done without */
     double bound; /* of all that is off, but for what the user forced off */
     transport transport;
     char transport_why[200];
@@ -40,9 +41,19 @@ typedef struct plan {
 } plan;
 
 /* Searches the scene, which holds all effects. What the user forces off that the scene calls for is
- * noticed. */
-bool plan_make(arena *a, const scene *s, const plan_options *o, plan *out, notices *n,
-               lux_error *err);
+ * noticed. False, with *err: a bad points file or camera, or memory is out. */
+bool plan_make(const scene *s, const plan_options *o, plan *out, notices *n, lux_error *err);
+
+/* For scene_options.off; 0: the scene that was searched will do. Without interreflection, which a
+ * run leaves out by itself. */
+static inline uint32_t plan_without(const plan *p)
+{
+    return p->off & ~(1u << EFFECT_INTERREFLECTION);
+}
+
+/* How a run follows the plan, in a scene that is built as it says: bound, transport, direct_only.
+ */
+void plan_apply(const plan *p, run_options *o);
 
 /* The table that lux4 plan prints, and its JSON. */
 void plan_print(const plan *p);

@@ -48,6 +48,17 @@ static void take_layers(const view_run_state *v, const accuracy_result *got, vie
     }
 }
 
+/* What the plan left out may be that far off, of max(luminance, a tenth of the log-average). */
+static void widen(const view_run_state *v, const accuracy_result *got, view_result *out)
+{
+    for (int i = 0; v->o->bound > 0.0 && i < out->width * out->height; i++) {
+        int x, y;
+        view_pixel(&v->camera, (uint32_t)i, &x, &y);
+        double against = fmax(got->mean[i], 0.1 * out->log_average);
+        out->half_width[y * out->width + x] += (float)(v->o->bound * against);
+    }
+}
+
 static void take_pixels(const view_run_state *v, const accuracy_result *got, view_result *out)
 {
     int items          = out->width * out->height;
@@ -75,7 +86,8 @@ static void take_pixels(const view_run_state *v, const accuracy_result *got, vie
             logs += log(luminance), bright += 1.0;
     }
     out->log_average = bright > 0.0 ? exp(logs / bright) : 0.0;
-    out->reached     = got->reached;
+    widen(v, got, out);
+    out->reached     = got->reached + v->o->bound;
     out->end         = got->end;
 }
 
@@ -109,7 +121,7 @@ static bool run(arena *a, arena *scratch, view_run_state *v, view_result *out, l
     accuracy_desc d = { .items         = out->width * out->height,
                         .channels      = CHANNELS + before_plain(v) + OF_LAYER * v->layers,
                         .judged        = 1 + before_plain(v),
-                        .accuracy      = out->asked,
+                        .accuracy      = out->asked - v->o->bound,
                         .needed        = 0.98,
                         .floor         = FLOOR_LOG_MEAN,
                         .first_samples = 1,

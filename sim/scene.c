@@ -265,6 +265,10 @@ const scene *scene_new(arena *a, const study *from, const scene_options *o, noti
     s->sky_count      = (int)b.skies.count;
     s->moments        = b.moments;
     s->moment_count   = b.moment_count;
+    s->unshadowed     = is_left_out(&b, EFFECT_SHADOWS);
+    s->untinted       = is_left_out(&b, EFFECT_TINTED_SHADOWS);
+    s->asks_all       = is_left_out(&b, EFFECT_MANY_LIGHTS);
+    s->pixel_centres  = is_left_out(&b, EFFECT_ANTIALIASING);
     if (!join_lights(&b, s) || !say_what_surfaces_do(&b, s) || !take_groups(&b, s) ||
         !make_sets(&b, s) || !scene_find_portals(&b, s))
         return NULL;

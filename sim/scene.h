@@ -34,6 +34,7 @@ typedef struct scene_material {
     bool overridden;      /* by the study's materials */
     bool exterior;        /* of what the study says is outside */
     bool used;            /* some surface is made of it */
+    double area;          /* m^2, of those, one side */
 } scene_material;
 
 /* What paths need to know of a material without asking it. */
@@ -151,6 +152,11 @@ typedef struct scene {
     bool hollow;                  /* some let light straight through, */
     bool solids;                  /* some of those are solids that refract, */
     bool narrow;                  /* some are not matt: rays find lamps by way of them */
+
+    bool unshadowed, untinted; /* as asked for: no shadow ray is traced; what lets light straight
+                                  through lets all of it pass */
+    bool asks_all;             /* so, too: sensors ask all lamps, however many */
+    bool pixel_centres;        /* so, too: views look through the middles of pixels */
 
     bool reflects;          /* light goes on from some surface, to either side */
     bool glows;             /* some surface emits light */

@@ -2,6 +2,7 @@
 #ifndef SIM_SCENE_BUILD_H
 #define SIM_SCENE_BUILD_H
 
+#include "sim/effects.h"
 #include "sim/scene.h"
 
 #include <string.h>
@@ -66,6 +67,13 @@ typedef struct scene_build {
     dvec3 centre, low, high; /* m, of the surfaces, in the user's frame */
 } scene_build;
 
+/* Whether the scene is to be built without an effect; a colour as it then is, if that is colour. */
+static inline bool is_left_out(const scene_build *b, effect e)
+{
+    return b->options->off >> e & 1;
+}
+vec3 scene_color(const scene_build *b, vec3 color); /* scene_leave_out.c */
+
 /* The places of a study's scene entry: its k-th copy. */
 transform scene_copy_place(const study_scene *s, int k);
 
@@ -80,6 +88,8 @@ bool build_bodies(scene_build *b);    /* scene_nodes.c: luminaires at nodes, wha
 world *build_world(scene_build *b);   /* scene_world.c */
 bool build_emitters(scene_build *b, const mesh *meshes, const world_instance *instances,
                     uint32_t count);    /* scene_emitters.c, of what the world is made of */
+bool build_areas(scene_build *b, const mesh *meshes, const world_instance *instances,
+                 uint32_t count);       /* scene_areas.c, of the same: scene_material.area */
 bool build_lamps(scene_build *b);       /* scene_lamps.c: all that follow */
 bool build_luminaires(scene_build *b);  /* scene_luminaires.c */
 bool build_lights(scene_build *b);      /* scene_lights.c */
@@ -115,6 +125,9 @@ bool scene_named_parts(scene_build *b, int i, const named_patterns *p, named_par
 
 /* The scene's numbers of the file's materials in a placement of scene entry i. */
 const uint32_t *scene_made_of(const scene_build *b, int i, uint32_t placement);
+
+/* The least index that makers of glass take: such a pane reflects nothing to speak of. */
+#define PANE_LEAST_IOR 1.0001f
 
 /* ---- between the files that make materials --------------------------------------------------- */
 
@@ -152,6 +165,13 @@ material_extra material_extra_of(const gltf_material *m);
 /* By what a share (times the mean of its texture) is to be multiplied so that no surface gives back
  * more light than any real one does; the user is told, unless its holes make up for it. */
 vec3 material_bounded(scene_build *b, const material_source *s, vec3 share, vec3 mean);
+
+/* Takes from a material of glTF the textures and colours that are left out: means stand in. False,
+ * if memory is out. And a measured table in whose place a matt surface reflects as much, and is as
+ * open as the table lets light through (scene_leave_out.c). */
+bool material_leave_out(scene_build *b, gltf_material *m);
+const material *material_unmeasured(scene_build *b, const material *table);
+double material_share_there(float openness, const material_textures *t); /* that is no hole */
 
 /* What the textures of all materials keep, bytes, each counted once; and what the largest needs
  * besides while it is made. */
@@ -204,7 +224,7 @@ vec3 lamp_place(const scene_build *b, dvec3 at);
 double lamp_tilt(const photometry *web, dvec3 aim, double lumens);
 
 /* Radiometric channels of a photometric strength in a colour of luminance 1. */
-vec3 lamp_watts(vec3 color, double per_lumen_unit);
+vec3 lamp_watts(const scene_build *b, vec3 color, double per_lumen_unit);
 
 /* Of the places of one entry, those beyond the walls of the room, or far from all surfaces: a lamp
  * there lights nothing that was meant. */

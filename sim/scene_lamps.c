@@ -12,9 +12,9 @@
 #include <stdio.h>
 #include <string.h>
 
-vec3 lamp_watts(vec3 color, double per_lumen_unit)
+vec3 lamp_watts(const scene_build *b, vec3 color, double per_lumen_unit)
 {
-    return v3_scale(color, (float)(per_lumen_unit / LUMENS_PER_WATT));
+    return v3_scale(scene_color(b, color), (float)(per_lumen_unit / LUMENS_PER_WATT));
 }
 
 double lamp_tilt(const photometry *web, dvec3 aim, double lumens)
@@ -77,7 +77,7 @@ bool lamp_add(scene_build *b, const light *l, const lamp_entry *e)
     int group         = info ? lamp_group(b, e->emission->group) : -1;
     if (group < 0)
         return false;
-    vec3 color     = e->emission->color;
+    vec3 color     = scene_color(b, e->emission->color);
     vec3 first     = ((const scene_light *)b->light_info.items)->color;
     double dimming = dimming_of(b, e->emission);
     *to            = l;

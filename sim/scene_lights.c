@@ -29,7 +29,7 @@ static vec3 strength_of(light_work *w, double given, double lumens_each)
 {
     double strength = isnan(given) ? w->from->lumens / lumens_each : given;
     w->lumens       = strength * lumens_each;
-    return lamp_watts(w->from->emission.color, strength * w->made_with);
+    return lamp_watts(w->b, w->from->emission.color, strength * w->made_with);
 }
 
 static const light *make_point(light_work *w)
@@ -79,9 +79,19 @@ static const light *make_linear(light_work *w)
     return light_linear(w->b->a, &d, w->b->err);
 }
 
+/* As strong as a flat lamp of that luminance (or flux) and area, seen from afar: I = L A. */
+static const light *make_spot(light_work *w, double area)
+{
+    vec3 radiance = strength_of(w, w->from->luminance, M_PI * area);
+    cosine_desc d = { w->place, w->aim, v3_scale(radiance, (float)area), 1.0f };
+    return light_cosine(w->b->a, &d, w->b->err);
+}
+
 static const light *make_disk(light_work *w)
 {
     double r    = w->from->radius;
+    if (is_left_out(w->b, EFFECT_AREA_LIGHTS))
+        return make_spot(w, M_PI * r * r);
     disk_desc d = { w->place, w->aim, (float)r,
                     strength_of(w, w->from->luminance, M_PI * M_PI * r * r) };
     return light_disk(w->b->a, &d, w->b->err);
@@ -96,6 +106,8 @@ static vec3 up_of(const light_work *w)
 static const light *make_rect(light_work *w)
 {
     const double *size = w->from->size;
+    if (is_left_out(w->b, EFFECT_AREA_LIGHTS))
+        return make_spot(w, size[0] * size[1]);
     rect_desc d        = { .centre   = w->place,
                            .aim      = w->aim,
                            .up       = up_of(w),
@@ -207,13 +219,14 @@ static const light *make_shaped(light_work *w)
     double lumens    = w->from->lumens;
     double own       = w->shaped->luminaire_lumens;
     luminaire_desc d = {
-        .position = w->place, .aim = w->aim, .web = w->shaped, .model = w->file->model
+        .position = w->place, .aim = w->aim, .web = w->shaped, .model = w->file->model,
+        .point = is_left_out(w->b, EFFECT_NEAR_FIELD)
     };
     frame_of_shape(w, &d);
     double factor = isnan(lumens) ? 1.0 : lumens / own;
     factor *= lamp_tilt(w->shaped, d3_from(d.aim), lumens);
     w->lumens = factor * own;
-    d.scale   = lamp_watts(w->from->emission.color, factor * w->made_with);
+    d.scale   = lamp_watts(w->b, w->from->emission.color, factor * w->made_with);
     return light_luminaire(w->b->a, &d, w->b->err);
 }
 

@@ -26,7 +26,7 @@ typedef struct gltf_work {
 
 static vec3 watts_of(const gltf_work *w)
 {
-    return lamp_watts(w->emission.color, w->strength * lamp_made_with(w->b, &w->emission));
+    return lamp_watts(w->b, w->emission.color, w->strength * lamp_made_with(w->b, &w->emission));
 }
 
 static const light *make_spot(gltf_work *w)

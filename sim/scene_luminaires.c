@@ -59,9 +59,10 @@ static bool add_luminaire(luminaire_work *w, luminaire_desc *d, dvec3 at, int32_
                      .web       = web,
                      .owner     = owner };
     d->position  = lamp_place(b, at);
-    d->scale     = lamp_watts(l->emission.color, factor * lamp_made_with(b, &l->emission));
+    d->scale     = lamp_watts(b, l->emission.color, factor * lamp_made_with(b, &l->emission));
     d->web       = web;
     d->model     = w->file->model;
+    d->point     = is_left_out(b, EFFECT_NEAR_FIELD);
     lamp_look_outside(b, at, &w->outside);
     return lamp_add(b, light_luminaire(b->a, d, b->err), &e);
 }

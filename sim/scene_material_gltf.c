@@ -34,7 +34,7 @@
 static const float smooth          = 0.03f;   /* a roughness that nobody sees in a pane */
 static const float nearly_smooth   = 0.1f;    /* whose lobe of transmission is narrow yet */
 static const float rough           = 0.999f;  /* 1 as a slider gives it */
-static const float least_ior       = 1.0001f; /* that makers of glass take */
+static const float least_ior       = PANE_LEAST_IOR; /* that makers of glass take */
 static const float most_absorption = 1e9f;    /* 1/m: black */
 
 /* ---- what a material is ---------------------------------------------------------------------- */
@@ -123,17 +123,27 @@ static float absorption_of(float color, double distance)
     return a > 0.0 ? (float)fmin(a, (double)most_absorption) : 0.0f;
 }
 
+/* As float rounds it, no more than a pane can have. */
+static float most_of_pane(double ior) { return (float)(pane_most(ior) * (1.0 - 1e-7)); }
+
 static const material *make_solid(scene_build *b, const material_source *s)
 {
     const gltf_material *m     = s->from;
     const material_textures *t = textures_of(m);
     vec3 c                     = m->attenuation_color;
     double distance            = (double)m->attenuation_distance * s->scale;
+    vec3 tint                  = v3_scale(m->base_color, clearness(m) * mean_of(&t->transmission).x);
+    if (is_left_out(b, EFFECT_REFRACTION))
+        return material_pane(b->a,
+                             &(pane_desc){ .transmittance = v3_scale(tint, most_of_pane((double)least_ior)),
+                                           .ior           = least_ior,
+                                           .extra         = material_extra_of(m) },
+                             b->err);
     dielectric_desc d          = {
                  .ior        = fmaxf(m->ior, least_ior),
                  .absorption = { absorption_of(c.x, distance), absorption_of(c.y, distance),
                                  absorption_of(c.z, distance) },
-                 .tint       = v3_scale(m->base_color, clearness(m) * mean_of(&t->transmission).x),
+                 .tint       = tint,
                  .extra      = material_extra_of(m)
     };
     tell(b, s, m->roughness >= smooth || t->surface.texture,
@@ -143,16 +153,16 @@ static const material *make_solid(scene_build *b, const material_source *s)
     return material_dielectric(b->a, &d, b->err);
 }
 
-/* As float rounds it, no more than a pane can have. */
-static float most_of_pane(double ior) { return (float)(pane_most(ior) * (1.0 - 1e-7)); }
-
 static const material *make_pane(scene_build *b, const material_source *s, scene_material *info)
 {
     const gltf_material *m = s->from;
     const glass_shapes *g  = s->glass;
     float ior              = fmaxf(m->ior, least_ior);
+    float most             = most_of_pane((double)ior);
+    if (is_left_out(b, EFFECT_MIRRORS))
+        ior = least_ior;
     info->box              = g->plates && !g->bodies && !g->open;
-    pane_desc d            = { .transmittance = v3_scale(m->base_color, most_of_pane((double)ior)),
+    pane_desc d            = { .transmittance = v3_scale(m->base_color, most),
                                .ior           = ior,
                                .box           = info->box,
                                .extra         = material_extra_of(m) };

@@ -39,7 +39,7 @@ static const material *make_matt(scene_build *b, const material_source *s,
                                  const material_extra *extra)
 {
     const study_material *m = s->instead;
-    vec3 d = m->reflectance, k = m->specular;
+    vec3 d = scene_color(b, m->reflectance), k = scene_color(b, m->specular);
     vec3 sum     = { d.x + k.x, d.y + k.y, d.z + k.z };
     vec3 bounded = material_bounded(b, s, sum, white);
     vec3 share = { sum.x > 0.0f ? bounded.x / sum.x : 1.0f, sum.y > 0.0f ? bounded.y / sum.y : 1.0f,
@@ -51,6 +51,15 @@ static const material *make_matt(scene_build *b, const material_source *s,
                      .exponent    = (float)m->exponent,
                      .extra       = *extra };
     return material_phong(b->a, &p, b->err);
+}
+
+static const material *make_mirror(scene_build *b, const material_source *s,
+                                   const material_extra *extra)
+{
+    vec3 back = material_bounded(b, s, scene_color(b, s->instead->mirror), white);
+    if (is_left_out(b, EFFECT_MIRRORS))
+        return material_diffuse(b->a, &(diffuse_desc){ back, *extra }, b->err);
+    return material_mirror(b->a, &(mirror_desc){ back, *extra }, b->err);
 }
 
 static void tell_of_boxes(scene_build *b, const material_source *s)
@@ -76,8 +85,9 @@ static const material *make_pane(scene_build *b, const material_source *s,
                                  const material_extra *extra, scene_material *info)
 {
     const study_material *m = s->instead;
+    float ior               = is_left_out(b, EFFECT_MIRRORS) ? PANE_LEAST_IOR : (float)m->ior;
     pane_desc d             = {
-                    .transmittance = m->transmittance, .ior = (float)m->ior, .box = m->box, .extra = *extra
+                    .transmittance = scene_color(b, m->transmittance), .ior = ior, .box = m->box, .extra = *extra
     };
     info->box = m->box;
     tell_of_boxes(b, s);
@@ -151,15 +161,17 @@ const material *material_of_study(scene_build *b, const material_source *s, scen
     switch (m->surface) {
     case SURFACE_MATT:
         return make_matt(b, s, &extra);
-    case SURFACE_MIRROR: {
-        mirror_desc d = { material_bounded(b, s, m->mirror, white), extra };
-        return material_mirror(b->a, &d, b->err);
-    }
+    case SURFACE_MIRROR:
+        return make_mirror(b, s, &extra);
     case SURFACE_PANE:
         return make_pane(b, s, &extra, info);
     case SURFACE_TABLE:
     case SURFACE_BSDF:
         break;
     }
-    return make_measured(b, s, &extra, info);
+    const material *table = make_measured(b, s, &extra, info);
+    if (!table || !is_left_out(b, EFFECT_MEASURED_BRDF))
+        return table;
+    info->file = NULL;
+    return material_unmeasured(b, table);
 }

@@ -17,7 +17,7 @@ static const float most_reflectance = 0.995f;
 static const char windows_name[] = "room: windows";
 
 /* What share of a surface is no hole, as materials_look() decides it place by place. */
-static double share_there(float openness, const material_textures *t)
+double material_share_there(float openness, const material_textures *t)
 {
     float alpha = 1.0f - openness;
     if (!t || t->alpha == ALPHA_OPAQUE)
@@ -44,7 +44,7 @@ vec3 material_bounded(scene_build *b, const material_source *s, vec3 share, vec3
     float most = fmaxf(fmaxf(share.x * mean.x, share.y * mean.y), share.z * mean.z);
     material_extra extra = material_extra_of(s->from); /* the study leaves holes as they are */
     if (s->used && most > most_reflectance &&
-        (double)most * share_there(extra.openness, extra.textures) > (double)most_reflectance &&
+        (double)most * material_share_there(extra.openness, extra.textures) > (double)most_reflectance &&
         b->bounded_count++ == 0)
         b->first_bounded = s->from->name;
     return to;
@@ -81,7 +81,7 @@ static void describe(const material *m, scene_material *info)
     info->emission             = mean_emission(m);
     info->textured             = t != NULL;
     info->bumpy                = t && t->normal.texture;
-    info->there                = share_there(m->look.openness, t);
+    info->there                = material_share_there(m->look.openness, t);
     info->holes                = m->look.openness > 0.0f || (t && t->alpha != ALPHA_OPAQUE);
 }
 
@@ -94,6 +94,8 @@ static bool add(scene_build *b, const material_source *s)
     gltf_material from  = *s->from;
     material_source own = *s;
     own.from            = &from;
+    if (!material_leave_out(b, &from))
+        return false;
     if (b->options->lamps_off)
         from.emission = (vec3){ 0, 0, 0 };
     *info = (scene_material){ .name = s->from->name, .overridden = s->instead, .used = s->used };

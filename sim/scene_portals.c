@@ -361,7 +361,7 @@ bool scene_find_portals(scene_build *b, scene *s)
         return true;
     arena scratch = { 0 };
     portal_work w = { .b = b, .s = s, .scratch = &scratch };
-    bool good     = find(&w, s);
+    bool good     = is_left_out(b, EFFECT_PORTALS) || find(&w, s);
     arena_clear(&scratch);
     const study_room *room = &b->study->room;
     if (room->given && room->window_count == 0)

@@ -31,6 +31,8 @@ static bool pass_on(const scene_build *b, const lux_error *why)
 
 static bool add_sky(scene_build *b, const sky *from, const char *group, bool ground)
 {
+    if (is_left_out(b, EFFECT_SKY))
+        return true;
     scene_sky *to = list_new(&b->skies, b->a, scene_sky, b->err);
     int number    = to ? scene_group(b, group) : -1;
     if (number < 0)
@@ -42,7 +44,7 @@ static bool add_sky(scene_build *b, const sky *from, const char *group, bool gro
 /* horizontal: W/m^2. */
 static bool add_ground(scene_build *b, vec3 horizontal, const char *group)
 {
-    vec3 radiance = v3_scale(v3_mul(b->study->sky.ground, horizontal), (float)(1.0 / M_PI));
+    vec3 radiance = v3_scale(v3_mul(scene_color(b, b->study->sky.ground), horizontal), (float)(1.0 / M_PI));
     if (!(v3_dot(radiance, radiance) > 0.0f))
         return true;
     lux_error why = { 0 };
@@ -92,9 +94,9 @@ static bool add_moment(scene_build *b, const moment *m, day_groups in, int *nigh
     if (now.sky &&
         (!add_sky(b, now.sky, in.sky, false) || !add_ground(b, now.sky->horizontal, in.sky)))
         return false;
-    if (!(now.sun_lx > 0.0))
+    if (!(now.sun_lx > 0.0) || is_left_out(b, EFFECT_SUN))
         return true;
-    vec3 square      = lamp_watts((vec3){ 1, 1, 1 }, now.sun_lx);
+    vec3 square      = lamp_watts(b, (vec3){ 1, 1, 1 }, now.sun_lx);
     sun_light_desc d = { .to_sun       = m->to_sun,
                          .irradiance   = square,
                          .diameter_deg = now.diameter_deg };
@@ -133,7 +135,9 @@ static bool add_panorama(scene_build *b, const sky *picture, const panorama_sun 
     sun_light_desc d = { .to_sun       = sun->to_sun,
                          .irradiance   = sun->irradiance,
                          .diameter_deg = fmax(sun->diameter_deg, suns_own_diameter_deg) };
-    return add_sky(b, picture, in.sky, false) && (!sun->found || add_sun(b, &d, in.sun));
+    bool shines = sun->found && !is_left_out(b, EFFECT_SUN);
+    return is_left_out(b, EFFECT_PANORAMA) ||
+           (add_sky(b, picture, in.sky, false) && (!shines || add_sun(b, &d, in.sun)));
 }
 
 static bool add_moments(scene_build *b)

@@ -296,6 +296,7 @@ world *build_world(scene_build *b)
     world_parts w     = { 0 };
     world *made       = NULL;
     if (collect(&local, &w) &&
+        build_areas(b, w.meshes, w.instances.items, (uint32_t)w.instances.count) &&
         build_emitters(b, w.meshes, w.instances.items, (uint32_t)w.instances.count))
         made = world_new(b->a,
                          &(world_desc){ .meshes         = w.meshes,

@@ -107,6 +107,15 @@ static vpassed follow(const scene *s, const vray *from, vint spare, vmask active
     return arrives(s, &p, from->reach);
 }
 
+static void let_all_pass(const scene *s, int packets, vmask *blocked, vpassed *passed)
+{
+    for (int k = 0; k < packets; k++) {
+        blocked[k] = (vmask){ 0 };
+        if (s->hollow)
+            passed[k] = (vpassed){ .share = vspread((vec3){ 1, 1, 1 }) };
+    }
+}
+
 int64_t shadow_trace(const scene *s, const vray *rays, const vmask *asked, const vint *spare,
                      int packets, ray_hint hint, vmask *blocked, vpassed *passed)
 {
@@ -115,12 +124,16 @@ int64_t shadow_trace(const scene *s, const vray *rays, const vmask *asked, const
         count += __builtin_popcount((unsigned)vbits(asked[k]));
     if (count == 0)
         return 0;
+    if (s->unshadowed) {
+        let_all_pass(s, packets, blocked, passed);
+        return 0;
+    }
     world_any_hit(s->world, rays, asked, s->owners ? spare : NULL, packets, hint, blocked);
     for (int k = 0; s->hollow && k < packets; k++) {
         vmask open = asked[k] & ~blocked[k];
         vint own   = s->owners ? spare[k] : vsplat_int(0);
         passed[k]  = (vpassed){ .share = vspread((vec3){ 1, 1, 1 }) };
-        if (vany(open))
+        if (vany(open) && !s->untinted)
             passed[k] = follow(s, &rays[k], own, open);
     }
     return count;

@@ -63,6 +63,8 @@ void cost_print(FILE *to, const cost_result *r)
     for (int i = 0; i < r->dropped_count; i++)
         fprintf(to, "%s%s%s", i ? ", " : "left out, there was no time for them: ", r->dropped[i],
                 i + 1 < r->dropped_count ? "" : "\n");
+    if (r->end == RUN_LATE)
+        fputs("the time was out early: some settings ran less than three times\n", to);
     fprintf(to, "%s\n", r->advice);
 }
 

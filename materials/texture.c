@@ -329,7 +329,7 @@ void texture_range(const texture *t, float low[4], float high[4])
         low[c] = high[c] = p.texels[c];
     for (size_t y = 0; y < (size_t)p.height; y++)
         for (size_t i = 0; i < 4 * (size_t)p.width; i++) {
-            float v    = p.texels[y * p.stride + i];
+            float v     = p.texels[y * p.stride + i];
             low[i % 4]  = fminf(low[i % 4], v);
             high[i % 4] = fmaxf(high[i % 4], v);
         }

@@ -183,14 +183,14 @@ static int run_series(const command_context *c, const study *s, lux_error *err)
     if (!d.moments)
         return exit_code_of(err, true);
 
-    int code      = EXIT_DONE;
-    run_options o = command_run_options(c, 1);
-    plan p        = { 0 };
+    int code             = EXIT_DONE;
+    run_options o        = command_run_options(c, 1);
+    plan p               = { 0 };
     plan_options planned = command_plan_options(c, false);
     planned.series       = true;
-    double step_h = when.from_min < when.to_min ? when.step_min / 60.0 : (double)NAN;
+    double step_h        = when.from_min < when.to_min ? when.step_min / 60.0 : (double)NAN;
     if (!daylight_begin(&d, step_h, err) || !plan_make(d.scene, &planned, &p, c->notices, err) ||
-        !daylight_leave_out(&d, plan_without(&p), err) ||
+        !daylight_plan(&d, plan_without(&p), p.on, err) ||
         !check_places(c, d.scene, series_extensions, SERIES_EXTENSIONS, err) ||
         !run_planned(&d, &p, &o, err))
         code = exit_code_of(err, true);
@@ -232,8 +232,8 @@ static int run_grid(const command_context *c, const scene *s, int index, totals 
     daylight_factor f;
     run_options o = command_run_options(c, s->study->grid_count - index);
     plan_apply(&t->plan, &o);
-    o.outside     = true;
-    int code      = EXIT_DONE;
+    o.outside = true;
+    int code  = EXIT_DONE;
     if (!grid_run(&of_grid, s, &s->study->grids[index], &o, &r, err) ||
         !daylight_factor_of(&of_grid, &r, &f, err))
         code = exit_code_of(err, true);

@@ -194,9 +194,9 @@ static int run_all(const command_context *c, const scene *s, totals *t, lux_erro
 
 static bool begin_totals(const command_context *c, const scene *s, totals *t, lux_error *err)
 {
-    int count   = s->study->grid_count;
+    int count         = s->study->grid_count;
     t->interval_valid = true;
-    t->averages = arena_array(c->a, double, (size_t)count, err);
+    t->averages       = arena_array(c->a, double, (size_t)count, err);
     for (int i = 0; t->averages && i < count; i++) {
         t->averages[i] = (double)NAN;
         t->name_width  = print_width(s->study->grids[i].name, t->name_width);

@@ -42,7 +42,8 @@ const scene *command_planned(const command_context *c, const study *s, const sce
     if (!all || !plan_make(all, &asked, out, c->notices, err))
         return NULL;
     built.off = plan_without(out);
-    return built.off ? scene_new(c->a, s, &built, NULL, err) : all;
+    built.on  = out->on;
+    return built.off | built.on ? scene_new(c->a, s, &built, NULL, err) : all;
 }
 
 const scene *command_planned_scene(const command_context *c, bool views, plan *out, lux_error *err)

@@ -90,8 +90,7 @@ const study *command_study(const command_context *c, lux_error *err);
 const scene *command_scene(const command_context *c, lux_error *err);
 
 /* The same, planned for its grids or its views, and built without what the plan leaves out. */
-const scene *command_planned_scene(const command_context *c, bool views, plan *out,
-                                   lux_error *err);
+const scene *command_planned_scene(const command_context *c, bool views, plan *out, lux_error *err);
 const scene *command_planned(const command_context *c, const study *s, const scene_options *o,
                              bool views, plan *out, lux_error *err);
 plan_options command_plan_options(const command_context *c, bool views);

@@ -149,9 +149,9 @@ static bool effect_list(const char *option_name, const char *text, bool all_too,
 
 static bool transport_named(const char *text, transport *out, lux_error *err)
 {
-    static const char *const names[] = { [TRANSPORT_AUTO] = "auto",
-                                         [TRANSPORT_PATH] = "path",
-                                         [TRANSPORT_MAPS] = "maps" };
+    static const char *const names[] = {
+        [TRANSPORT_AUTO] = "auto", [TRANSPORT_PATH] = "path", [TRANSPORT_MAPS] = "maps"
+    };
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (!strcmp(text, names[i])) {
             *out = (transport)i;

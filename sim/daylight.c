@@ -66,7 +66,8 @@ static bool make_scene(daylight *d, int batch, lux_error *err)
     scene_options o = { .threads      = d->threads,
                         .moments      = d->moments + first,
                         .moment_count = first_of_batch(d, batch + 1) - first,
-                        .off          = d->off };
+                        .off          = d->off,
+                        .on           = d->on };
     d->scene        = scene_new(&d->of_scene, d->study, &o, d->notices, err);
     return d->scene != NULL;
 }
@@ -132,10 +133,11 @@ bool daylight_begin(daylight *d, double step_h, lux_error *err)
     return true;
 }
 
-bool daylight_leave_out(daylight *d, uint32_t off, lux_error *err)
+bool daylight_plan(daylight *d, uint32_t off, uint32_t on, lux_error *err)
 {
     d->off = off;
-    return off == 0 || make_scene(d, 0, err);
+    d->on  = on;
+    return (off | on) == 0 || make_scene(d, 0, err);
 }
 
 void daylight_end(daylight *d)

@@ -49,7 +49,7 @@ typedef struct daylight {
     int batches;
     int threads;
     notices *notices;
-    uint32_t off;            /* scene_options.off */
+    uint32_t off, on;        /* as in scene_options */
     const scene *scene;      /* of the first batch until daylight_run() ends */
     arena of_scene;          /* of that and the ones that follow */
     daylight_series *series; /* of study->grids */
@@ -60,9 +60,9 @@ typedef struct daylight {
  * daylight. */
 bool daylight_begin(daylight *d, double step_h, lux_error *err);
 
-/* Makes the scene of the first batch anew, and all others, without effects: bits 1 << effect. False,
- * with *err. */
-bool daylight_leave_out(daylight *d, uint32_t off, lux_error *err);
+/* Makes the scene of the first batch anew, and all others, without effects and with others: `off`
+ * and `on` of scene_options. False, with *err. */
+bool daylight_plan(daylight *d, uint32_t off, uint32_t on, lux_error *err);
 
 /* Runs all grids at all moments; o->deadline is shared among them. What there was when the user
  * stopped it is there. False, with *err, if something fails, or if there was nothing yet. */

@@ -9,19 +9,26 @@ static const double bounds_share = 0.2;
 
 typedef struct decision {
     const plan_facts *f;
-    effects called;     /* what the scene calls for */
-    uint32_t on, off;   /* what the user says, bits 1 << effect */
-    double left;        /* of what bounds may come to */
-    bool direct;        /* light is not followed on from surfaces */
+    effects called;   /* what the scene calls for */
+    uint32_t on, off; /* what the user says, bits 1 << effect */
+    double left;      /* of what bounds may come to */
+    bool direct;      /* light is not followed on from surfaces */
     plan *p;
 } decision;
 
 static bool has(uint32_t bits, effect e) { return bits >> e & 1; }
 
+/* Where no light comes in from outside, none of it can be hidden. */
 static effects called_for(const plan_facts *f, bool direct)
 {
-    return f->o->views ? effects_of_views(f->s, direct)
-                       : effects_of_grids(f->s, direct, f->outside);
+    const scene *s = f->s;
+    effects all =
+        f->o->views ? effects_of_views(s, direct) : effects_of_grids(s, direct, f->outside);
+    bool hidden = s->glows;
+    for (int l = 0; l < scene_lamp_count(s); l++)
+        hidden |= !s->light_info[l].clear;
+    all.on[EFFECT_SHADOWS] &= hidden || !f->sealed;
+    return all;
 }
 
 /* What the user has no say in is open to be left out. */
@@ -52,9 +59,9 @@ static void decide_interreflection(decision *d)
     if (to->on && !has(d->off, EFFECT_INTERREFLECTION) &&
         !leave_out(d, EFFECT_INTERREFLECTION, open_bound(d, EFFECT_INTERREFLECTION)))
         return;
-    bool was  = d->called.on[EFFECT_INTERREFLECTION];
-    d->direct = true;
-    d->called = called_for(d->f, true);
+    bool was                             = d->called.on[EFFECT_INTERREFLECTION];
+    d->direct                            = true;
+    d->called                            = called_for(d->f, true);
     d->called.on[EFFECT_INTERREFLECTION] = was;
 }
 
@@ -63,7 +70,7 @@ static void decide_rest(decision *d)
 {
     static const effect bounded[] = { EFFECT_NORMAL_MAPS, EFFECT_TEXTURES, EFFECT_NEAR_FIELD,
                                       EFFECT_AREA_LIGHTS };
-    static const effect outer[] = { EFFECT_SUN, EFFECT_SKY, EFFECT_PORTALS, EFFECT_PANORAMA };
+    static const effect outer[]   = { EFFECT_SUN, EFFECT_SKY, EFFECT_PORTALS, EFFECT_PANORAMA };
     enum { BOUNDED = sizeof bounded / sizeof *bounded, OUTER = sizeof outer / sizeof *outer };
     plan_effect *all = d->p->effects;
     for (int e = 0; e < EFFECTS; e++)
@@ -125,8 +132,8 @@ static void choose_transport(const decision *d)
     plan *p      = d->p;
     p->transport = d->f->o->transport;
     if (p->transport == TRANSPORT_AUTO)
-        p->transport = plan_transport(d->f, p->effects[EFFECT_INTERREFLECTION].on,
-                                      p->transport_why, sizeof p->transport_why);
+        p->transport = plan_transport(d->f, p->effects[EFFECT_INTERREFLECTION].on, p->transport_why,
+                                      sizeof p->transport_why);
     else
         snprintf(p->transport_why, sizeof p->transport_why, "asked for");
 }
@@ -135,15 +142,18 @@ static void decide(decision *d, notices *n)
 {
     const plan_options *o = d->f->o;
     const uint32_t all    = (1u << EFFECTS) - 1;
-    d->off  = o->no | (o->direct_only ? 1u << EFFECT_INTERREFLECTION : 0);
-    d->off  = (o->has_only ? d->off | ~o->only : d->off) & all;
-    d->on   = o->has_only ? o->only & ~d->off & all : 0;
-    d->left = bounds_share * d->f->accuracy;
-    d->called = called_for(d->f, o->direct_only);
+    d->off                = o->no | (o->direct_only ? 1u << EFFECT_INTERREFLECTION : 0);
+    d->off                = (o->has_only ? d->off | ~o->only : d->off) & all;
+    d->on                 = o->has_only ? o->only & ~d->off & all : 0;
+    d->left               = bounds_share * d->f->accuracy;
+    d->called             = called_for(d->f, o->direct_only);
     decide_interreflection(d);
     decide_rest(d);
     obey(d, n);
     d->p->off = built_without(d);
+    for (int e = 0; e < EFFECTS; e++)
+        if (d->p->effects[e].on && !d->called.on[e])
+            d->p->on |= 1u << e;
     for (int e = 0; e < EFFECTS; e++)
         plan_tell(d->f, (effect)e, d->called.on[e], &d->p->effects[e]);
     choose_transport(d);

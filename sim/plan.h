@@ -33,7 +33,8 @@ typedef struct plan {
     plan_effect effects[EFFECTS];
     double accuracy; /* relative: what was planned for */
     uint32_t off;    /* bits 1 << effect: what the scene holds and is to be done without */
-    double bound; /* of all that is off, but for what the user forced off */
+    uint32_t on;     /* for scene_options.on: what it does not call for, and the user asks for */
+    double bound;    /* of all that is off, but for what the user forced off */
     transport transport;
     char transport_why[200];
     int weak_count; /* path classes that no sampler here reaches well: results say so */

@@ -72,8 +72,8 @@ static double bound_of_grid(const plan_facts *f, const grid_result *direct, doub
     const scene *s  = f->s;
     double rho      = f->materials.most;
     double sent_out = rho / (1.0 - rho) * lumens;
-    double average  = direct->average - direct->average_half_width, worst = 0.0;
-    bool round      = quantity_is_round(direct->grid->quantity);
+    double average = direct->average - direct->average_half_width, worst = 0.0;
+    bool round = quantity_is_round(direct->grid->quantity);
     for (int k = 0; k < direct->sensor_count; k++) {
         double d       = distance_to_sides(&direct->sensors[k], s->study->room.size, round);
         double got     = direct->illuminance[k] - direct->half_width[k];
@@ -86,10 +86,10 @@ static double bound_of_grid(const plan_facts *f, const grid_result *direct, doub
 
 static double bound_of_interreflection(const plan_facts *f)
 {
-    const scene *s     = f->s;
-    const study *from  = s->study;
-    double lumens      = lumens_of_all(s);
-    bool bare          = from->room.given && from->room.window_count == 0 && from->scene_count == 0;
+    const scene *s    = f->s;
+    const study *from = s->study;
+    double lumens     = lumens_of_all(s);
+    bool bare         = from->room.given && from->room.window_count == 0 && from->scene_count == 0;
     const run_options o = { .accuracy    = 10.0 * f->accuracy,
                             .deadline    = HUGE_VAL,
                             .seed        = 1,
@@ -170,9 +170,9 @@ static vsurface packet_of(const scene *s, const grid_result *g, int first)
 {
     float x[LANES], y[LANES], z[LANES], nx[LANES], ny[LANES], nz[LANES];
     for (int i = 0; i < LANES; i++) {
-        int k                = first + i < g->sensor_count ? first + i : g->sensor_count - 1;
-        vec3 p               = scene_place(s, g->sensors[k].at);
-        const dvec3 *normal  = &g->sensors[k].normal;
+        int k               = first + i < g->sensor_count ? first + i : g->sensor_count - 1;
+        vec3 p              = scene_place(s, g->sensors[k].at);
+        const dvec3 *normal = &g->sensors[k].normal;
         x[i] = p.x, y[i] = p.y, z[i] = p.z;
         nx[i] = (float)normal->x, ny[i] = (float)normal->y, nz[i] = (float)normal->z;
     }

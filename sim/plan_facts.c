@@ -10,14 +10,14 @@ static void add_material(const scene *s, int i, plan_materials *to)
 {
     const scene_material *info = &s->material_info[i];
     const material *m          = s->materials[i];
-    dvec3 back_and_through     = d3_add(d3_scale(d3_from(info->reflectance), info->there),
-                                        d3_from(info->transmittance));
-    vec3 on                    = d3_to_float(back_and_through);
-    double back                = (double)rgb_luminance(on);
-    bool sharp                 = !m->type->reflect && largest(info->reflectance) > 0.0;
+    dvec3 back_and_through =
+        d3_add(d3_scale(d3_from(info->reflectance), info->there), d3_from(info->transmittance));
+    vec3 on     = d3_to_float(back_and_through);
+    double back = (double)rgb_luminance(on);
+    bool sharp  = !m->type->reflect && largest(info->reflectance) > 0.0;
     to->area += info->area;
     to->matt_share += m->matt ? info->area : 0.0;
-    to->bright_share += back > BRIGHT ? info->area : 0.0;
+    to->bright_share += back > BRIGHT * (1.0 + 1e-6) /* as floats round */ ? info->area : 0.0;
     to->mean += back * info->area;
     to->most = fmax(to->most, largest(on));
     to->textured += info->textured;

@@ -10,12 +10,12 @@
 /* Materials in use, by what they call for. */
 typedef struct plan_materials {
     int textured, bumpy, measured, mirrors, solids, hollow;
-    double area;                 /* m^2, of all surfaces, one side */
-    double matt_share;           /* [0, 1], of that; so is the next */
-    double bright_share;         /* reflects more than BRIGHT of diffuse light */
-    double most, mean;           /* [0, 1]: reflectance as luminance, transmission included */
-    double sharpest;             /* of mirrors and panes; by channel the largest */
-    const char *first_textured;  /* names; NULL */
+    double area;                /* m^2, of all surfaces, one side */
+    double matt_share;          /* [0, 1], of that; so is the next */
+    double bright_share;        /* reflects more than BRIGHT of diffuse light */
+    double most, mean;          /* [0, 1]: reflectance as luminance, transmission included */
+    double sharpest;            /* of mirrors and panes; by channel the largest */
+    const char *first_textured; /* names; NULL */
     const char *first_measured;
 } plan_materials;
 #define BRIGHT 0.2

@@ -29,7 +29,8 @@ transport plan_transport(const plan_facts *f, bool interreflection, char *why, s
         snprintf(why, size, "%.0f %% of the surface area is not matt",
                  100.0 * (1.0 - m->matt_share));
     else if (m->mean < bright)
-        snprintf(why, size, "surfaces reflect %.0f %% in the mean: paths end soon", 100.0 * m->mean);
+        snprintf(why, size, "surfaces reflect %.0f %% in the mean: paths end soon",
+                 100.0 * m->mean);
     else {
         snprintf(why, size, "%.0f %s, surfaces reflect %.0f %% in the mean, %.0f %% of them matt",
                  places, what, 100.0 * m->mean, 100.0 * m->matt_share);

@@ -60,7 +60,7 @@ static void tell_extent(const plan_facts *f, bool called, plan_effect *to, bool 
 {
     const scene *s   = f->s;
     const char *what = of_file ? "luminaire" : "lamp";
-    int count        = lamps_of_extent(s, of_file), all = scene_lamp_count(s);
+    int count = lamps_of_extent(s, of_file), all = scene_lamp_count(s);
     if (called && !to->on && to->bound > 0.0)
         say(to, "all %d %s%s of extent are points within %.2g %% at every sensor", count, what,
             plural(count), 100.0 * to->bound);
@@ -72,8 +72,10 @@ static void tell_extent(const plan_facts *f, bool called, plan_effect *to, bool 
     else if (all == 0)
         say(to, "there is no lamp");
     else
-        say(to, of_file ? "no luminaire's file has an opening" : "all %d lamp%s are points", all,
-            plural(all));
+        say(to, "%s",
+            of_file    ? "no luminaire's file has an opening"
+            : all == 1 ? "the lamp is a point"
+                       : "all lamps are points");
 }
 
 static void tell_area(const plan_facts *f, bool called, plan_effect *to)
@@ -107,8 +109,7 @@ static void tell_many(const plan_facts *f, bool called, plan_effect *to)
 static bool tell_sealed(const plan_facts *f, bool called, plan_effect *to)
 {
     if (called && f->sealed)
-        say(to, "the room has no opening, and all %s are within",
-            f->o->views ? "eyes" : "sensors");
+        say(to, "the room has no opening, and all %s are within", f->o->views ? "eyes" : "sensors");
     return called && f->sealed;
 }
 
@@ -170,8 +171,9 @@ static void tell_interreflection(const plan_facts *f, bool called, plan_effect *
     if (called && !to->on && to->bound > 0.0)
         say(to, "no surface reflects more than %.2g %%", 100.0 * m->most);
     else if (called)
-        say(to, "%.0f %% of the surface area reflects more than %.0f %%, in the mean %.0f %%: about "
-                "%d reflections",
+        say(to,
+            "%.0f %% of the surface area reflects more than %.0f %%, in the mean %.0f %%: about "
+            "%d reflections",
             100.0 * m->bright_share, 100.0 * BRIGHT, 100.0 * m->mean, depth_of(f, m->mean));
     else if (f->o->direct_only)
         say(to, "left out as asked: --direct-only");

@@ -87,8 +87,8 @@ static void take_pixels(const view_run_state *v, const accuracy_result *got, vie
     }
     out->log_average = bright > 0.0 ? exp(logs / bright) : 0.0;
     widen(v, got, out);
-    out->reached     = got->reached + v->o->bound;
-    out->end         = got->end;
+    out->reached = got->reached + v->o->bound;
+    out->end     = got->end;
 }
 
 static bool make_threads(view_run_state *v, arena *a, lux_error *err)

@@ -45,7 +45,7 @@ static void trace_camera(view_run_state *v, view_scratch *w, const sample_id *id
             index[i] = (int32_t)id->index;
             seed[i]  = (int32_t)hash_u32(seed_of(v, id));
         }
-        vsample4 u    = vsobol4(vunsigned(vload_int(index)), vunsigned(vload_int(seed)));
+        vsample4 u = vsobol4(vunsigned(vload_int(index)), vunsigned(vload_int(seed)));
         if (v->s->pixel_centres)
             u.x = u.y = vsplat(0.5f);
         vfloat across = vload(x) + u.x, down = vload(y) + u.y;

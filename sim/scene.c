@@ -234,6 +234,20 @@ static void say_what_lights_are(scene *s)
     }
 }
 
+/* What costs nothing where a scene has none of it, looked for all the same. */
+static void force_on(const scene_build *b, scene *s)
+{
+    scene_light *info = b->light_info.items;
+    uint32_t on       = b->options->on;
+    s->extended |= on >> EFFECT_AREA_LIGHTS & 1;
+    s->textured |= on >> EFFECT_TEXTURES & 1;
+    s->smooth |= on >> EFFECT_NORMAL_MAPS & 1;
+    s->narrow |= (on >> EFFECT_MIRRORS | on >> EFFECT_MEASURED_BRDF) & 1;
+    s->hollow |= on >> EFFECT_TINTED_SHADOWS & 1;
+    for (int l = 0; l < s->light_count && on >> EFFECT_SHADOWS & 1; l++)
+        info[l].clear = false;
+}
+
 const scene *scene_new(arena *a, const study *from, const scene_options *o, notices *n,
                        lux_error *err)
 {
@@ -279,5 +293,6 @@ const scene *scene_new(arena *a, const study *from, const scene_options *o, noti
     scene_find_focus(s, n);
     if (!scene_find_glints(s, n, err))
         return NULL;
+    force_on(&b, s);
     return s;
 }

@@ -191,6 +191,8 @@ typedef struct scene_options {
     int moment_count;
     bool lamps_off; /* lamps and glowing surfaces are left out */
     uint32_t off;   /* bits 1 << effect (effects.h): effects that are left out */
+    uint32_t on;    /* the same: that are looked for though nothing calls for them: results are the
+                       same, and take longer */
     scene_measures measures;
 } scene_options;
 

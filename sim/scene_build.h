@@ -68,10 +68,7 @@ typedef struct scene_build {
 } scene_build;
 
 /* Whether the scene is to be built without an effect; a colour as it then is, if that is colour. */
-static inline bool is_left_out(const scene_build *b, effect e)
-{
-    return b->options->off >> e & 1;
-}
+static inline bool is_left_out(const scene_build *b, effect e) { return b->options->off >> e & 1; }
 vec3 scene_color(const scene_build *b, vec3 color); /* scene_leave_out.c */
 
 /* The places of a study's scene entry: its k-th copy. */
@@ -87,7 +84,7 @@ bool build_bounds(scene_build *b);    /* scene_bounds.c: times, box, centre */
 bool build_bodies(scene_build *b);    /* scene_nodes.c: luminaires at nodes, what hangs there */
 world *build_world(scene_build *b);   /* scene_world.c */
 bool build_emitters(scene_build *b, const mesh *meshes, const world_instance *instances,
-                    uint32_t count);    /* scene_emitters.c, of what the world is made of */
+                    uint32_t count); /* scene_emitters.c, of what the world is made of */
 bool build_areas(scene_build *b, const mesh *meshes, const world_instance *instances,
                  uint32_t count);       /* scene_areas.c, of the same: scene_material.area */
 bool build_lamps(scene_build *b);       /* scene_lamps.c: all that follow */

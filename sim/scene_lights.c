@@ -89,7 +89,7 @@ static const light *make_spot(light_work *w, double area)
 
 static const light *make_disk(light_work *w)
 {
-    double r    = w->from->radius;
+    double r = w->from->radius;
     if (is_left_out(w->b, EFFECT_AREA_LIGHTS))
         return make_spot(w, M_PI * r * r);
     disk_desc d = { w->place, w->aim, (float)r,
@@ -108,12 +108,12 @@ static const light *make_rect(light_work *w)
     const double *size = w->from->size;
     if (is_left_out(w->b, EFFECT_AREA_LIGHTS))
         return make_spot(w, size[0] * size[1]);
-    rect_desc d        = { .centre   = w->place,
-                           .aim      = w->aim,
-                           .up       = up_of(w),
-                           .width    = (float)size[0],
-                           .height   = (float)size[1],
-                           .radiance = strength_of(w, w->from->luminance, M_PI * size[0] * size[1]) };
+    rect_desc d = { .centre   = w->place,
+                    .aim      = w->aim,
+                    .up       = up_of(w),
+                    .width    = (float)size[0],
+                    .height   = (float)size[1],
+                    .radiance = strength_of(w, w->from->luminance, M_PI * size[0] * size[1]) };
     return light_rect(w->b->a, &d, w->b->err);
 }
 
@@ -218,10 +218,11 @@ static const light *make_shaped(light_work *w)
 {
     double lumens    = w->from->lumens;
     double own       = w->shaped->luminaire_lumens;
-    luminaire_desc d = {
-        .position = w->place, .aim = w->aim, .web = w->shaped, .model = w->file->model,
-        .point = is_left_out(w->b, EFFECT_NEAR_FIELD)
-    };
+    luminaire_desc d = { .position = w->place,
+                         .aim      = w->aim,
+                         .web      = w->shaped,
+                         .model    = w->file->model,
+                         .point    = is_left_out(w->b, EFFECT_NEAR_FIELD) };
     frame_of_shape(w, &d);
     double factor = isnan(lumens) ? 1.0 : lumens / own;
     factor *= lamp_tilt(w->shaped, d3_from(d.aim), lumens);

@@ -31,11 +31,11 @@
 #include "core/color.h"
 #include "sim/scene_build.h"
 
-static const float smooth          = 0.03f;   /* a roughness that nobody sees in a pane */
-static const float nearly_smooth   = 0.1f;    /* whose lobe of transmission is narrow yet */
-static const float rough           = 0.999f;  /* 1 as a slider gives it */
+static const float smooth          = 0.03f;          /* a roughness that nobody sees in a pane */
+static const float nearly_smooth   = 0.1f;           /* whose lobe of transmission is narrow yet */
+static const float rough           = 0.999f;         /* 1 as a slider gives it */
 static const float least_ior       = PANE_LEAST_IOR; /* that makers of glass take */
-static const float most_absorption = 1e9f;    /* 1/m: black */
+static const float most_absorption = 1e9f;           /* 1/m: black */
 
 /* ---- what a material is ---------------------------------------------------------------------- */
 
@@ -132,20 +132,20 @@ static const material *make_solid(scene_build *b, const material_source *s)
     const material_textures *t = textures_of(m);
     vec3 c                     = m->attenuation_color;
     double distance            = (double)m->attenuation_distance * s->scale;
-    vec3 tint                  = v3_scale(m->base_color, clearness(m) * mean_of(&t->transmission).x);
+    vec3 tint = v3_scale(m->base_color, clearness(m) * mean_of(&t->transmission).x);
     if (is_left_out(b, EFFECT_REFRACTION))
-        return material_pane(b->a,
-                             &(pane_desc){ .transmittance = v3_scale(tint, most_of_pane((double)least_ior)),
-                                           .ior           = least_ior,
-                                           .extra         = material_extra_of(m) },
-                             b->err);
-    dielectric_desc d          = {
-                 .ior        = fmaxf(m->ior, least_ior),
-                 .absorption = { absorption_of(c.x, distance), absorption_of(c.y, distance),
-                                 absorption_of(c.z, distance) },
-                 .tint       = tint,
-                 .extra      = material_extra_of(m)
-    };
+        return material_pane(
+            b->a,
+            &(pane_desc){ .transmittance = v3_scale(tint, most_of_pane((double)least_ior)),
+                          .ior           = least_ior,
+                          .extra         = material_extra_of(m) },
+            b->err);
+    dielectric_desc d = { .ior        = fmaxf(m->ior, least_ior),
+                          .absorption = { absorption_of(c.x, distance),
+                                          absorption_of(c.y, distance),
+                                          absorption_of(c.z, distance) },
+                          .tint       = tint,
+                          .extra      = material_extra_of(m) };
     tell(b, s, m->roughness >= smooth || t->surface.texture,
          "the rough border of a solid is taken as smooth");
     tell(b, s, clearness(m) < 1.0f || t->transmission.texture,
@@ -161,11 +161,11 @@ static const material *make_pane(scene_build *b, const material_source *s, scene
     float most             = most_of_pane((double)ior);
     if (is_left_out(b, EFFECT_MIRRORS))
         ior = least_ior;
-    info->box              = g->plates && !g->bodies && !g->open;
-    pane_desc d            = { .transmittance = v3_scale(m->base_color, most),
-                               .ior           = ior,
-                               .box           = info->box,
-                               .extra         = material_extra_of(m) };
+    info->box   = g->plates && !g->bodies && !g->open;
+    pane_desc d = { .transmittance = v3_scale(m->base_color, most),
+                    .ior           = ior,
+                    .box           = info->box,
+                    .extra         = material_extra_of(m) };
     tell(b, s, info->box, "closed boxes of glass: each is taken as one pane");
     tell(b, s, !info->box && g->plates,
          "some of its panes are closed boxes, others single surfaces: each surface is taken as a "

@@ -86,10 +86,11 @@ static const material *make_pane(scene_build *b, const material_source *s,
 {
     const study_material *m = s->instead;
     float ior               = is_left_out(b, EFFECT_MIRRORS) ? PANE_LEAST_IOR : (float)m->ior;
-    pane_desc d             = {
-                    .transmittance = scene_color(b, m->transmittance), .ior = ior, .box = m->box, .extra = *extra
-    };
-    info->box = m->box;
+    pane_desc d             = { .transmittance = scene_color(b, m->transmittance),
+                                .ior           = ior,
+                                .box           = m->box,
+                                .extra         = *extra };
+    info->box               = m->box;
     tell_of_boxes(b, s);
     return material_pane(b->a, &d, b->err);
 }

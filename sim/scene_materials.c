@@ -44,7 +44,8 @@ vec3 material_bounded(scene_build *b, const material_source *s, vec3 share, vec3
     float most = fmaxf(fmaxf(share.x * mean.x, share.y * mean.y), share.z * mean.z);
     material_extra extra = material_extra_of(s->from); /* the study leaves holes as they are */
     if (s->used && most > most_reflectance &&
-        (double)most * material_share_there(extra.openness, extra.textures) > (double)most_reflectance &&
+        (double)most * material_share_there(extra.openness, extra.textures) >
+            (double)most_reflectance &&
         b->bounded_count++ == 0)
         b->first_bounded = s->from->name;
     return to;

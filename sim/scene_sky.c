@@ -44,7 +44,8 @@ static bool add_sky(scene_build *b, const sky *from, const char *group, bool gro
 /* horizontal: W/m^2. */
 static bool add_ground(scene_build *b, vec3 horizontal, const char *group)
 {
-    vec3 radiance = v3_scale(v3_mul(scene_color(b, b->study->sky.ground), horizontal), (float)(1.0 / M_PI));
+    vec3 radiance =
+        v3_scale(v3_mul(scene_color(b, b->study->sky.ground), horizontal), (float)(1.0 / M_PI));
     if (!(v3_dot(radiance, radiance) > 0.0f))
         return true;
     lux_error why = { 0 };
@@ -135,7 +136,7 @@ static bool add_panorama(scene_build *b, const sky *picture, const panorama_sun 
     sun_light_desc d = { .to_sun       = sun->to_sun,
                          .irradiance   = sun->irradiance,
                          .diameter_deg = fmax(sun->diameter_deg, suns_own_diameter_deg) };
-    bool shines = sun->found && !is_left_out(b, EFFECT_SUN);
+    bool shines      = sun->found && !is_left_out(b, EFFECT_SUN);
     return is_left_out(b, EFFECT_PANORAMA) ||
            (add_sky(b, picture, in.sky, false) && (!shines || add_sun(b, &d, in.sun)));
 }

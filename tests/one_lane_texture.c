@@ -4,6 +4,7 @@
 #define texture_new           one_lane_texture_new /* beside the library's own */
 #define texture_mean          one_lane_texture_mean
 #define texture_share         one_lane_texture_share
+#define texture_range         one_lane_texture_range
 #define texture_bytes         one_lane_texture_bytes
 #define texture_picture_bytes one_lane_texture_picture_bytes
 #define vtexture_lookup       one_lane_vtexture_lookup

@@ -26,11 +26,11 @@ TEST(a_room_gets_a_table_and_files)
     assert_non_null(strstr(r.out, "bounces unlimited"));
     assert_non_null(strstr(r.out, "the cheapest setting that meets 10 %"));
     size_t size;
-    char *csv = bytes_of(path_in(folder, "out/cost.csv"), &size);
-    assert_non_null(strstr(csv, "ladder,setting,seconds,rays,rms_percent"));
-    assert_non_null(strstr(csv, "\nbounces,bounces 1,"));
+    char *text = bytes_of(path_in(folder, "out/cost.csv"), &size);
+    assert_non_null(strstr(text, "ladder,setting,seconds,rays,rms_percent"));
+    assert_non_null(strstr(text, "\nbounces,bounces 1,"));
     assert_true(there_is(folder, "out/cost.svg"));
-    free(csv);
+    free(text);
     program_free(&r);
     folder_free(folder);
 }
@@ -66,7 +66,7 @@ TEST(a_study_of_views_is_run_by_rays_a_pixel_too)
 {
     char *folder     = folder_of_study(view);
     program_result r = { 0 };
-    LUX4(folder, 0, &r, "cost", "study.yaml", "--time", "15");
+    LUX4(folder, 0, &r, "cost", "study.yaml", "--time", "15", "--accuracy", "50%");
     assert_non_null(strstr(r.out, "view hall"));
     assert_non_null(strstr(r.out, "1 ray a pixel"));
     assert_non_null(strstr(r.out, "25 rays a pixel"));
@@ -76,7 +76,7 @@ TEST(a_study_of_views_is_run_by_rays_a_pixel_too)
 
 TEST(a_study_with_nothing_to_run_is_refused)
 {
-    char *folder = folder_of_study("lux4: 1\nroom: {size: [4, 3, 2.5]}\n");
+    char *folder = folder_of_study("lux4: 1\nroom: {size: [4, 3, 2.5], reflectance: 0.5}\n");
     LUX4_FAILS(folder, 2, "neither `grids` nor `views`", "cost", "study.yaml");
     folder_free(folder);
 }

@@ -40,6 +40,13 @@ typedef struct vtable_place {
     vfloat fraction;   /* [0, 1] */
 } vtable_place;
 
+/* Ways of looking up that are worse or slower than the usual ones, to measure what these are worth.
+ * Who keeps a table keeps this beside it. */
+typedef struct table_measures {
+    bool nearest; /* the value at the nearest place, in place of those around */
+    bool libm;    /* angles by the C library (core/lane_math.h) */
+} table_measures;
+
 /* Whether *axis is as described above; else false, with *err, which `what` begins. */
 bool table_axis_check(const table_axis *axis, const char *what, lux_error *err);
 
@@ -117,6 +124,13 @@ static inline vtable_place vtable_find(const table_axis *axis, vfloat x)
     vfloat high  = vselect(last, vsplat(end), vgather(at, above));
     vfloat share = (x - low) / (high - low);
     return (vtable_place){ below, above, vmin(vmax(share, vsplat(0.0f)), vsplat(1.0f)) };
+}
+
+/* The nearer one of the two places alone. */
+static inline vtable_place vtable_nearest(vtable_place p)
+{
+    p.fraction = vkeep(p.fraction >= 0.5f, vsplat(1.0f));
+    return p;
 }
 
 /* The value at two places, of values[first * count of the second axis + second]. */

@@ -218,4 +218,9 @@ const light *light_luminaire(arena *a, const luminaire_desc *d, lux_error *err);
  * be made of it either. */
 const luminaire_model *luminaire_model_new(arena *a, const struct photometry *web, lux_error *err);
 
+/* The same one, looked up in another way; m must outlive it. */
+struct table_measures;
+const luminaire_model *luminaire_model_measured(arena *a, const luminaire_model *m,
+                                                const struct table_measures *by, lux_error *err);
+
 #endif

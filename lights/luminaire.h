@@ -5,6 +5,7 @@
 #ifndef LIGHTS_LUMINAIRE_H
 #define LIGHTS_LUMINAIRE_H
 
+#include "core/lane_math.h"
 #include "core/packet_math.h"
 #include "core/table.h"
 #include "lights/light.h"
@@ -33,6 +34,7 @@ struct luminaire_model {
     float down_least, down_most; /* cosines of gamma, a rounding apart: dark outside of them */
     const float *error;          /* by direction: luminaire_error.c */
     web_cells cells;
+    table_measures measures;
 };
 
 typedef struct luminaire {
@@ -67,14 +69,24 @@ vmask luminaire_emit(const light *self, const light_target *to, vfloat s, vfloat
 vmask luminaire_as_point(const light *self, const vvec3 *p, vmask active, vlight_sample *out,
                          vfloat *error);
 
+static inline vfloat vluminaire_angle(const luminaire_model *m, vfloat y, vfloat x)
+{
+    return m->measures.libm ? lane_atan2(y, x) : vatan2(y, x);
+}
+
 /* cd in the direction (x, y, down) of the luminaire's frame, which is at gamma: gamma =
  * atan2(sqrt(x^2
  * + y^2), down), C = atan2(y, x); the lanes where it is not dark. */
 static inline vmask vluminaire_lookup(const luminaire_model *m, vfloat x, vfloat y, vfloat gamma,
                                       vmask active, vfloat *cd)
 {
-    vfloat plane = m->axes[0].count > 1 ? vatan2(y, x) : vsplat(0.0f);
-    *cd          = vtable_lookup2(m->candela, m->axes, plane, gamma);
+    vfloat plane = m->axes[0].count > 1 ? vluminaire_angle(m, y, x) : vsplat(0.0f);
+    if (m->measures.nearest)
+        *cd = vtable_blend2(m->candela, m->axes[1].count,
+                            vtable_nearest(vtable_find(&m->axes[0], plane)),
+                            vtable_nearest(vtable_find(&m->axes[1], gamma)));
+    else
+        *cd = vtable_lookup2(m->candela, m->axes, plane, gamma);
     return active & (gamma >= m->gamma_from) & (gamma <= m->gamma_to) & (*cd > 0.0f);
 }
 
@@ -88,7 +100,8 @@ static inline vmask vluminaire_candela(const luminaire *l, vvec3 wi, vmask activ
     vmask inside = active & (down >= l->model->down_least) & (down <= l->model->down_most);
     if (!vany(inside))
         return inside;
-    return vluminaire_lookup(l->model, x, y, vatan2(vsqrt(x * x + y * y), down), inside, cd);
+    vfloat gamma = vluminaire_angle(l->model, vsqrt(x * x + y * y), down);
+    return vluminaire_lookup(l->model, x, y, gamma, inside, cd);
 }
 
 #endif

@@ -95,3 +95,14 @@ const luminaire_model *luminaire_model_new(arena *a, const photometry *web, lux_
     m->error = luminaire_error_table(a, web, err);
     return m->error && luminaire_cells_make(a, web, &m->cells, err) ? m : NULL;
 }
+
+const luminaire_model *luminaire_model_measured(arena *a, const luminaire_model *m,
+                                                const table_measures *by, lux_error *err)
+{
+    luminaire_model *copy = arena_new(a, luminaire_model, err);
+    if (!copy)
+        return NULL;
+    *copy          = *m;
+    copy->measures = *by;
+    return copy;
+}

@@ -25,6 +25,16 @@ const brdf *brdf_read(arena *a, const char *path, notices *n, lux_error *err)
     return b;
 }
 
+const brdf *brdf_measured(arena *a, const brdf *b, const table_measures *by, lux_error *err)
+{
+    brdf *copy = arena_new(a, brdf, err);
+    if (!copy)
+        return NULL;
+    *copy          = *b;
+    copy->measures = *by;
+    return copy;
+}
+
 const brdf_figures *brdf_figures_of(const brdf *b) { return &b->figures; }
 
 /* ---- the material ---------------------------------------------------------------------------- */

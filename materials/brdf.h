@@ -39,6 +39,10 @@ typedef struct brdf_data {
 /* Makes a table, in a; *d is no longer needed then. It takes 24 bytes a place. */
 const brdf *brdf_make(arena *a, const brdf_data *d, notices *n, lux_error *err);
 
+/* The same table, looked up in another way; b must outlive it. */
+struct table_measures;
+const brdf *brdf_measured(arena *a, const brdf *b, const struct table_measures *by, lux_error *err);
+
 /* What a report says of a table. */
 typedef struct brdf_figures {
     brdf_kind kind;

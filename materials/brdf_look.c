@@ -19,16 +19,19 @@
 
 static const float COSINE_SHARE = 0.125f;
 
-static vfloat vtheta(const vvec3 *w) { return vatan2(vsqrt(w->x * w->x + w->y * w->y), w->z); }
+static vfloat vtheta(const brdf *b, const vvec3 *w)
+{
+    return vbrdf_angle(b, vsqrt(w->x * w->x + w->y * w->y), w->z);
+}
 
 /* ---- look-up --------------------------------------------------------------------------------- */
 
 static void find_anisotropic(const brdf *b, const vvec3 *wo, const vvec3 *wi, vbrdf_place *out)
 {
-    out->axes[0] = vtable_find(&b->axes[0], vtheta(wo));
-    out->axes[1] = vtable_find(&b->axes[1], vatan2(wo->y, wo->x));
-    out->axes[2] = vtable_find(&b->axes[2], vtheta(wi));
-    out->axes[3] = vtable_find(&b->axes[3], vatan2(wi->y, wi->x));
+    out->axes[0] = vtable_find(&b->axes[0], vtheta(b, wo));
+    out->axes[1] = vtable_find(&b->axes[1], vbrdf_angle(b, wo->y, wo->x));
+    out->axes[2] = vtable_find(&b->axes[2], vtheta(b, wi));
+    out->axes[3] = vtable_find(&b->axes[3], vbrdf_angle(b, wi->y, wi->x));
     out->theta   = out->axes[0];
     out->phi     = out->axes[1];
     out->cell    = out->axes[2].below * b->cells.phis + out->axes[3].below;
@@ -39,9 +42,9 @@ static void find_isotropic(const brdf *b, const vvec3 *wo, const vvec3 *wi, vbrd
 {
     vfloat x, y;
     vbrdf_heading(wo, &x, &y);
-    vfloat delta = vatan2(wi->x * y - wi->y * x, wi->x * x + wi->y * y);
-    out->axes[0] = vtable_find(&b->axes[0], vtheta(wo));
-    out->axes[1] = vtable_find(&b->axes[1], vtheta(wi));
+    vfloat delta = vbrdf_angle(b, wi->x * y - wi->y * x, wi->x * x + wi->y * y);
+    out->axes[0] = vtable_find(&b->axes[0], vtheta(b, wo));
+    out->axes[1] = vtable_find(&b->axes[1], vtheta(b, wi));
     out->axes[2] = vtable_find(&b->axes[2], delta);
     out->theta   = out->axes[0];
     out->phi     = (vtable_place){ 0 };
@@ -57,9 +60,9 @@ static void find_half(const brdf *b, const vvec3 *wo, const vvec3 *wi, bool draw
     vfloat length_h = vlength(h), length_d = vlength(d);
     vfloat across = length_h * (h.x * d.y - h.y * d.x);
     vfloat along  = h.z * (h.x * d.x + h.y * d.y) - r2 * d.z;
-    out->axes[0]  = vtable_find(&b->axes[0], vatan2(vsqrt(r2), h.z));
-    out->axes[1]  = vtable_find(&b->axes[1], vatan2(length_d, length_h));
-    vfloat phi_d  = vatan2(across, along);
+    out->axes[0]  = vtable_find(&b->axes[0], vbrdf_angle(b, vsqrt(r2), h.z));
+    out->axes[1]  = vtable_find(&b->axes[1], vbrdf_angle(b, length_d, length_h));
+    vfloat phi_d  = vbrdf_angle(b, across, along);
     out->axes[2]  = vtable_find(&b->axes[2], vselect(phi_d < 0.0f, phi_d + WARP_PI, phi_d));
     if (!drawn)
         return;
@@ -70,7 +73,7 @@ static void find_half(const brdf *b, const vvec3 *wo, const vvec3 *wi, bool draw
     phi         = vselect(phi < 0.0f, phi + 2.0f * WARP_PI, phi);
     vfloat most = vsplat((float)(b->cells.phis - 1));
     vint column = vto_int(vmin(phi * ((float)b->cells.phis / (2.0f * WARP_PI)), most));
-    out->theta  = vtable_find(&b->nodes.theta, vtheta(wo));
+    out->theta  = vtable_find(&b->nodes.theta, vtheta(b, wo));
     out->phi    = (vtable_place){ 0 };
     out->cell   = out->axes[0].below * b->cells.phis + column;
     out->to_sr  = 0.5f / length_h; /* wo . h = |H| / 2 */

@@ -12,6 +12,7 @@
 #ifndef MATERIALS_BRDF_PARTS_H
 #define MATERIALS_BRDF_PARTS_H
 
+#include "core/lane_math.h"
 #include "core/packet_math.h"
 #include "core/table.h"
 #include "materials/brdf.h"
@@ -43,6 +44,7 @@ struct brdf {
     brdf_cells cells;
     vec3 reflectance; /* of diffuse light */
     brdf_figures figures;
+    table_measures measures;
 };
 
 /* What a pair of directions finds in a table. */
@@ -61,6 +63,12 @@ static inline void vbrdf_node(const brdf *b, const vvec3 *wo, vtable_place *thet
     *phi   = vtable_find(&b->nodes.phi, vatan2(wo->y, wo->x));
 }
 
+/* An angle by which the values are looked up. */
+static inline vfloat vbrdf_angle(const brdf *b, vfloat y, vfloat x)
+{
+    return b->measures.libm ? lane_atan2(y, x) : vatan2(y, x);
+}
+
 /* The horizontal direction of wo, of some length; x where wo is upright. */
 static inline void vbrdf_heading(const vvec3 *wo, vfloat *x, vfloat *y)
 {
@@ -72,13 +80,21 @@ static inline void vbrdf_heading(const vvec3 *wo, vfloat *x, vfloat *y)
 /* The whole place for wo and wi above the horizon; `cell` and what follows only if `drawn`. */
 void vbrdf_find(const brdf *b, const vvec3 *wo, const vvec3 *wi, bool drawn, vbrdf_place *out);
 
-/* The values there: RGB and the spare. */
+/* The values there: RGB and the spare. (Where they are those of the nearest places, what is drawn,
+ * and how often, is as ever.) */
 static inline void vbrdf_blend(const brdf *b, const vbrdf_place *p, vfloat out[4])
 {
+    const vtable_place *axes = p->axes;
+    vtable_place nearest[4];
+    if (b->measures.nearest) {
+        for (int i = 0; i < (b->kind == BRDF_ANISOTROPIC ? 4 : 3); i++)
+            nearest[i] = vtable_nearest(p->axes[i]);
+        axes = nearest;
+    }
     if (b->kind == BRDF_ANISOTROPIC)
-        vtable_fours4(b->values, b->axes, p->axes, out);
+        vtable_fours4(b->values, b->axes, axes, out);
     else
-        vtable_fours3(b->values, b->axes, p->axes, out);
+        vtable_fours3(b->values, b->axes, axes, out);
 }
 
 /* What one of four numbers a node, `every` floats apart, is at wo. */

@@ -421,12 +421,31 @@ static bool first_round(run_state *s, lux_error *err)
     return judge(s, err);
 }
 
+/* The only round of a run of so many samples: in the end there is what there is. */
+static bool run_once(run_state *s, lux_error *err)
+{
+    int samples = s->d->only_samples, scrambles = samples < SCRAMBLES ? samples : SCRAMBLES;
+    while (samples % scrambles != 0)
+        scrambles--;
+    s->n                 = (uint32_t)(samples / scrambles);
+    s->to                = scrambles;
+    s->samples_predicted = (double)s->d->items * samples;
+    every_item(s);
+    if (!sample_round(s, err) || !judge(s, err))
+        return false;
+    s->r->complete = s->scrambles == scrambles;
+    s->r->end      = progress_stopped(s->d->progress) ? RUN_INTERRUPTED : s->r->end;
+    return true;
+}
+
 static bool run_rounds(run_state *s, lux_error *err)
 {
     const accuracy_desc *d = s->d;
-    s->n                   = (uint32_t)d->first_samples;
-    s->samples_predicted   = 16.0 * d->items * SCRAMBLES * s->n;
-    s->reached             = (double)NAN;
+    if (d->only_samples > 0)
+        return run_once(s, err);
+    s->n                 = (uint32_t)d->first_samples;
+    s->samples_predicted = 16.0 * d->items * SCRAMBLES * s->n;
+    s->reached           = (double)NAN;
     every_item(s);
     if (!first_round(s, err))
         return false;

@@ -73,6 +73,8 @@ typedef struct accuracy_desc {
     double needed;       /* share of the items that must be done, (0, 1] */
     floor_kind floor;
     int first_samples;  /* a scramble, in the first round; a power of two <= BUNDLE */
+    int only_samples;   /* an item takes so many and no more, in as many scrambles as divide them,
+                           whatever that makes of the accuracy; 0: as many as it takes */
     int dark_samples;   /* a scramble, at least, before samples that were all 0 are believed */
     int threads;        /* >= 1 */
     double deadline;    /* s, on clock_seconds(); HUGE_VAL: none. Two sets an item come first. */

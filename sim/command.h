@@ -75,7 +75,8 @@ typedef struct command {
 } command;
 
 extern const command command_grid, command_render, command_check, command_photometry,
-    command_material, command_mix, command_sun, command_sky, command_daylight, command_plan;
+    command_material, command_mix, command_sun, command_sky, command_daylight, command_plan,
+    command_cost;
 
 /* Reads the words behind the command's name. False, with *err, for what cannot be. */
 bool command_line_read(arena *a, const command *c, int count, char *const *words, command_line *out,

@@ -288,6 +288,7 @@ static bool sample_rest(arena *a, grid_run_state *g, grid_result *r, lux_error *
                         .floor         = FLOOR_MEAN,
                         .first_samples = g->s->mirrors ? MIRROR_SAMPLES / SCRAMBLES : 8,
                         .dark_samples  = 256,
+                        .only_samples  = g->o->only_samples,
                         .threads       = g->o->threads,
                         .deadline      = g->o->deadline,
                         .progress      = g->o->progress,

@@ -35,6 +35,7 @@ typedef struct run_options {
     bool bounded;       /* `bounces` counts */
     int bounces;        /* reflections at most, >= 0: what comes after more is left out */
     int roulette_from;  /* reflections before which no path is ended by chance */
+    int only_samples;   /* a sensor or pixel, neither fewer nor more; 0: as accuracy asks */
     double bound;       /* relative: how far off what the plan left out may make a result */
     progress *progress; /* may be NULL */
 } run_options;

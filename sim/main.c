@@ -10,12 +10,13 @@
 /* A new command is one file and one line here. */
 static const command *const commands[] = {
     &command_grid, &command_render,     &command_daylight, &command_check, &command_sun,
-    &command_sky,  &command_photometry, &command_material, &command_mix,   &command_plan
+    &command_sky,  &command_photometry, &command_material, &command_mix,   &command_plan,
+    &command_cost
 };
 enum { COMMANDS = sizeof commands / sizeof *commands };
 
 /* Commands of the contract that are not built yet. */
-static const char *const to_come[] = { "cost", "tone", "diff" };
+static const char *const to_come[] = { "tone", "diff" };
 
 static volatile bool stop; /* the one thing a signal handler may touch */
 

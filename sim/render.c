@@ -125,6 +125,7 @@ static bool run(arena *a, arena *scratch, view_run_state *v, view_result *out, l
                         .needed        = 0.98,
                         .floor         = FLOOR_LOG_MEAN,
                         .first_samples = 1,
+                        .only_samples  = v->o->only_samples,
                         .threads       = v->o->threads,
                         .deadline      = v->o->deadline,
                         .progress      = v->o->progress,
@@ -148,7 +149,11 @@ bool view_run(arena *a, const scene *s, const study_view *view, const run_option
     uint32_t seed    = hash_text_u32(hash_u32(~o->seed), view->name);
     view_run_state v = { .s      = s,
                          .o      = o,
-                         .paths  = { .lamps = true, .bounce = !o->direct_only },
+                         .paths  = { .lamps         = true,
+                                     .bounce        = !o->direct_only,
+                                     .bounded       = o->bounded,
+                                     .bounces       = o->bounces,
+                                     .roulette_from = o->roulette_from },
                          .layers = s->layered ? s->group_count : 0,
                          .seed   = seed };
     if (!camera_of_view(s, view, &v.camera, err))

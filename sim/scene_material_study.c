@@ -3,6 +3,7 @@
  * What the study says replaces all of what the scene's file says, textures too, but for the light
  * that the surface gives off and for its holes.
  */
+#include "core/table.h"
 #include "materials/brdf.h"
 #include "materials/bsdf.h"
 #include "sim/scene_build.h"
@@ -94,6 +95,14 @@ static const material *make_pane(scene_build *b, const material_source *s,
     return material_pane(b->a, &d, b->err);
 }
 
+static const brdf *read_brdf(scene_build *b, const char *path, lux_error *err)
+{
+    const scene_measures *m = &b->options->measures;
+    table_measures by       = { .nearest = m->nearest_tables, .libm = m->libm_tables };
+    const brdf *read        = brdf_read(b->a, path, b->notices, err);
+    return read && (by.nearest || by.libm) ? brdf_measured(b->a, read, &by, err) : read;
+}
+
 /* The table of an entry is read once, however many materials it fits. */
 static const void *table_of(scene_build *b, const study_material *m)
 {
@@ -102,7 +111,7 @@ static const void *table_of(scene_build *b, const study_material *m)
     if (!*table)
         *table = m->surface == SURFACE_BSDF
                      ? (const void *)bsdf_read(b->a, m->brdf, b->notices, &why)
-                     : (const void *)brdf_read(b->a, m->brdf, b->notices, &why);
+                     : (const void *)read_brdf(b, m->brdf, &why);
     if (!*table && why.code == ERR_IO) /* the study names what is not there */
         return study_failed(b->study, m->where, b->err, ERR_IO, "%s", why.text);
     return *table ? *table : failed(b->err, why.code, "%s", why.text);

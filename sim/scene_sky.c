@@ -59,8 +59,8 @@ static bool add_sun(scene_build *b, const sun_light_desc *d, const char *group)
     const study_sky *k = &b->study->sky;
     lux_error why      = { 0 };
     parallel_desc p    = { .aim = v3_scale(d->to_sun, -1.0f), .irradiance = d->irradiance };
-    const light *made =
-        k->sun == STUDY_SUN_POINT ? light_parallel(b->a, &p, &why) : light_sun(b->a, d, &why);
+    bool point         = k->sun == STUDY_SUN_POINT || b->options->measures.point_sun;
+    const light *made  = point ? light_parallel(b->a, &p, &why) : light_sun(b->a, d, &why);
     if (!made)
         return pass_on(b, &why);
     study_emission is = { .color = { 1, 1, 1 }, .dimming = 1.0, .group = group };

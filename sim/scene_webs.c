@@ -1,6 +1,7 @@
 /* sim/scene_webs.c -- the photometric files of a scene: each is read, and warned of, once, however
  * many lamps name it.
  */
+#include "core/table.h"
 #include "sim/scene_build.h"
 
 #include <string.h>
@@ -32,6 +33,14 @@ static const scene_web *insert(scene_build *b, size_t at, const scene_web *from,
     return all[at] = made;
 }
 
+static const luminaire_model *model_of(scene_build *b, const photometry *web, lux_error *err)
+{
+    const scene_measures *m  = &b->options->measures;
+    table_measures by        = { .nearest = m->nearest_tables, .libm = m->libm_tables };
+    const luminaire_model *l = luminaire_model_new(b->a, web, err);
+    return l && (by.nearest || by.libm) ? luminaire_model_measured(b->a, l, &by, err) : l;
+}
+
 const scene_web *scene_web_of(scene_build *b, const char *name, const char *bytes, size_t size,
                               lux_error *err)
 {
@@ -43,7 +52,7 @@ const scene_web *scene_web_of(scene_build *b, const char *name, const char *byte
     scene_web read = { .name = name };
     read.web       = bytes ? photometry_parse(b->a, name, bytes, size, b->notices, err)
                            : photometry_read(b->a, name, b->notices, err);
-    read.model     = read.web ? luminaire_model_new(b->a, read.web, err) : NULL;
+    read.model     = read.web ? model_of(b, read.web, err) : NULL;
     return read.model ? insert(b, at, &read, err) : NULL;
 }
 

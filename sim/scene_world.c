@@ -305,6 +305,9 @@ world *build_world(scene_build *b)
                                         .mesh_count     = w.mesh_count,
                                         .instances      = w.instances.items,
                                         .instance_count = (uint32_t)w.instances.count,
+                                        .test           = b->options->measures.projection_test
+                                                              ? TRIANGLE_PROJECTION
+                                                              : TRIANGLE_WATERTIGHT,
                                         .threads        = b->options->threads },
                          b->err);
     for (uint32_t i = 0; i < w.mesh_count; i++)

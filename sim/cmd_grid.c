@@ -11,6 +11,7 @@ static const char *const extensions[] = { ".csv", ".exr" };
 enum { EXTENSIONS = 2 };
 
 typedef struct totals {
+    const struct illumination_map *map; /* that all grids share; NULL */
     double seconds;
     int64_t rays;
     bool interval_valid;
@@ -46,6 +47,26 @@ static void print_requirement(const grid_requirement *q)
            q->decided ? "" : " (not decided at this accuracy: ask for more)");
 }
 
+/* By which way the light of the average has come, if some has come by mirrors or was focused. */
+static void print_classes(const grid_result *r)
+{
+    static const char *const names[] = { [CLASS_DIRECT]    = "direct",
+                                         [CLASS_REFLECTED] = "reflected",
+                                         [CLASS_MIRRORED]  = "in plane mirrors",
+                                         [CLASS_FOCUSED]   = "focused" };
+    if (!(r->classes[CLASS_MIRRORED].average > 0.0 || r->classes[CLASS_FOCUSED].average > 0.0))
+        return;
+    const char *between = "  of the average: ";
+    for (int c = 0; c < LIGHT_CLASSES; c++) {
+        printf("%s%s ", between, names[c]);
+        print_digits(r->classes[c].average, 4);
+        printf(" +- ");
+        print_digits(r->classes[c].half_width, 2);
+        between = ", ";
+    }
+    puts(" lx");
+}
+
 static void print_table(const scene *s, const grid_result *r, const totals *t)
 {
     if (t->printed == 0) {
@@ -71,6 +92,7 @@ static void print_table(const scene *s, const grid_result *r, const totals *t)
     int count = grid_requirements(r, asked);
     for (int i = 0; i < count; i++)
         print_requirement(&asked[i]);
+    print_classes(r);
     command_grid_remarks(r, r->end, r->missed, r->asked, r->left_to_chance);
 }
 
@@ -155,7 +177,8 @@ static int run_one(const command_context *c, const scene *s, int index, totals *
     run_options o = command_run_options(c, s->study->grid_count - index);
     int code      = EXIT_DONE;
     plan_apply(&t->plan, &o);
-    if (!grid_run(&of_grid, s, &s->study->grids[index], &o, &r, err))
+    if (!command_maps(c, s, s->study->grid_count, &o, &t->map, err) ||
+        !grid_run(&of_grid, s, &s->study->grids[index], &o, &r, err))
         code = exit_code_of(err, true);
     if (code == EXIT_DONE) {
         terminal_clear(c->terminal);
@@ -241,7 +264,7 @@ const command command_grid = {
             "--schedule lists what is installed, initial and not dimmed, and its load: on the\n"
             "room's floor, or of a study without `room` on each grid that looks up.\n",
     .options = " -o --overwrite --accuracy --time --variant --threads --seed --direct-only "
-               "--transport --no --only --groups --schedule --json "
+               "--transport --save-maps --no --only --groups --schedule --json "
                "--quiet ",
     .run     = grid_command,
 };

@@ -38,6 +38,7 @@ static void print_view(const command_context *c, const view_result *r, const cha
 }
 
 typedef struct totals {
+    const struct illumination_map *map; /* that all views share; NULL */
     plan plan;
     int printed; /* views */
     int code;    /* EXIT_INACCURATE once a view was */
@@ -55,7 +56,8 @@ static int run_view(const command_context *c, const scene *s, int index, totals 
         exr ? output_path(c->a, s->study, &c->line->place, v->name, ".png", err) : NULL;
     int code = EXIT_DONE;
     plan_apply(&all->plan, &o);
-    if (!png || !view_run(&of_view, s, v, &o, &r, err))
+    if (!png || !command_maps(c, s, s->study->view_count, &o, &all->map, err) ||
+        !view_run(&of_view, s, v, &o, &r, err))
         code = exit_code_of(err, true);
     if (code == EXIT_DONE) {
         terminal_clear(c->terminal);
@@ -117,7 +119,7 @@ const command command_render = {
                "accuracy asked for, of their value or of a tenth of the picture's log-average: 10 %\n"
                "unless --accuracy says otherwise (`accuracy` in the study is for grids).\n",
     .options = " -o --overwrite --accuracy --time --variant --threads --seed --direct-only "
-               "--transport --no --only --groups --half "
+               "--transport --save-maps --no --only --groups --half "
                "--exposure "
                "--json --quiet ",
     .run     = render_command,

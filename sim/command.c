@@ -3,6 +3,7 @@
 
 #include "core/parallel.h"
 #include "sim/accuracy.h"
+#include "sim/light_maps.h"
 
 const study *command_study(const command_context *c, lux_error *err)
 {
@@ -29,7 +30,7 @@ plan_options command_plan_options(const command_context *c, bool views)
                            .no          = l->off,
                            .only        = l->only,
                            .has_only    = l->has_only,
-                           .transport   = l->transport };
+                           .transport   = l->maps ? TRANSPORT_MAPS : l->transport };
 }
 
 /* What the first scene told of holds for the second. */
@@ -69,6 +70,21 @@ run_options command_run_options(const command_context *c, int left)
                           .progress    = c->progress };
 }
 
+bool command_maps(const command_context *c, const scene *s, int runs, run_options *o,
+                  const illumination_map **made, lux_error *err)
+{
+    o->maps = c->line->maps;
+    if (o->transport != TRANSPORT_MAPS || s->by_moment || o->direct_only || !s->reflects)
+        return true;
+    double asked = !isnan(o->accuracy)          ? o->accuracy
+                   : !isnan(s->study->accuracy) ? s->study->accuracy
+                                                : GRID_DEFAULT_PERCENT / 100.0;
+    if (!*made && (runs > 1 || o->maps) && !light_maps_indirect(c->a, s, o, asked, made, err))
+        return false;
+    o->indirect = *made;
+    return true;
+}
+
 void command_grid_remarks(const grid_result *r, run_end end, int missed, double asked,
                           const char *left_to_chance)
 {
@@ -77,7 +93,10 @@ void command_grid_remarks(const grid_result *r, run_end end, int missed, double 
                r->left_out > 1 ? "s" : "");
     if (end != RUN_DONE || missed)
         printf("  accuracy: %d of %d sensors are not within %g %%%s\n", missed, r->sensor_count,
-               100.0 * asked, end == RUN_DONE ? " of all as dimmed (layers are)" : " yet");
+               100.0 * asked,
+               end != RUN_DONE ? " yet"
+               : r->smoothed   ? ", with what maps smooth"
+                               : " of all as dimmed (layers are)");
     if (left_to_chance)
         printf("  interval not valid: %s\n", left_to_chance);
 }

@@ -101,6 +101,11 @@ int command_threads(const command_context *c);
  * --time is shared. */
 run_options command_run_options(const command_context *c, int left);
 
+/* Of TRANSPORT_MAPS: the map that several runs share, made (or read from the file of --save-maps)
+ * once; it lives as long as the command. False, with *err. */
+bool command_maps(const command_context *c, const scene *s, int runs, run_options *o,
+                  const struct illumination_map **made, lux_error *err);
+
 /* What a table says below a grid of its sensors, of accuracy and of intervals. */
 void command_grid_remarks(const grid_result *r, run_end end, int missed, double asked,
                           const char *left_to_chance);

@@ -32,6 +32,8 @@ static const option options[] = {
     { "--threads", "N", "run on N threads (default: all processors)" },
     { "--seed", "N", "another number, another set of random samples (default 1)" },
     { "--direct-only", NULL, "leave interreflection out" },
+    { "--save-maps", "FILE", "keep the maps of --transport maps there, or go by those it has",
+      true },
     { "--transport", "T", "interreflection by path, maps or auto (default: as lux4 plan says)" },
     { "--no", "EFFECT,..", "leave effects out that lux4 plan lists (may stand several times)" },
     { "--only", "EFFECT,..", "simulate these alone; all: leave out nothing, needed or not" },
@@ -52,7 +54,6 @@ static const option options[] = {
     { "--write", "FILE", "convert to .ies or .ldt", true },
     { "--json", NULL, "results as one JSON object on stdout" },
     { "--quiet", NULL, "no progress bar, no warnings" },
-    { "--save-maps", "", NULL },
     { "--resume", NULL, NULL },
     { "--tone", "", NULL },
     { "--false-color", "", NULL },
@@ -236,6 +237,11 @@ static bool take(command_line *l, const char *name, const char *value, lux_error
         l->place.overwrite = true;
     } else if (!strcmp(name, "--direct-only")) {
         l->direct_only = true;
+    } else if (!strcmp(name, "--save-maps")) {
+        if (!value[0])
+            return failed(err, ERR_ARGUMENT, "--save-maps: expected a file");
+        l->maps   = value;
+        l->groups = true; /* so that it serves for other dimmings */
     } else if (!strcmp(name, "--transport")) {
         return transport_named(value, &l->transport, err);
     } else if (!strcmp(name, "--no")) {

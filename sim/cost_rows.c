@@ -6,7 +6,7 @@
 #include <string.h>
 
 /* Whether interreflection by illumination maps is wired into grids and views. */
-static const bool maps_are_there = false;
+static const bool maps_are_there = true;
 
 const char *cost_ladder_name(cost_ladder l)
 {

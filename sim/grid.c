@@ -16,11 +16,40 @@ static bool make_bundle(const grid_run_state *g, arena *a, path_bundle *b, lux_e
     const grid_channels *c = &g->channels;
     if (g->layers && !(b->layers = arena_array(a, path_sums, 2 * (size_t)g->layers, err)))
         return false;
+    if (c->smoothed >= 0 && !(b->smoothed = arena_array(a, float, PATHS, err)))
+        return false;
     if (c->classes >= 0 && g->s->mirror_images && !(b->mirrored = arena_new(a, path_sums, err)))
         return false;
     if (c->outside >= 0 && !(b->outside = arena_new(a, path_sums, err)))
         return false;
     return c->electric < 0 || (b->daylight = arena_new(a, path_sums, err));
+}
+
+static const double square_share = 0.25;  /* of the way from sensor to sensor */
+static const float square_side   = 0.05f; /* m, at most: of the squares where focused light is
+                                             looked for */
+
+static float side_of_squares(const study_grid *grid)
+{
+    double u, v;
+    if (grid->points)
+        return square_side;
+    study_grid_counts(grid, &u, &v);
+    double step = fmin(d3_length(grid->u) / u, d3_length(grid->v) / v);
+    return fminf((float)(square_share * step), square_side);
+}
+
+static bool make_maps(grid_run_state *g, arena *a, lux_error *err)
+{
+    size_t n      = (size_t)g->r->sensor_count;
+    vec3 *at      = arena_array(a, vec3, n, err);
+    vec3 *normal  = at ? arena_array(a, vec3, n, err) : NULL;
+    map_sensors m = { (int)n, at, normal, side_of_squares(g->r->grid) };
+    for (size_t k = 0; normal && k < n; k++) {
+        at[k]     = scene_place(g->s, g->r->sensors[k].at);
+        normal[k] = d3_to_float(g->r->sensors[k].normal);
+    }
+    return normal && light_maps_make(a, g->s, g->o, g->r->asked, &m, &g->maps, err);
 }
 
 static bool make_threads(grid_run_state *g, arena *a, lux_error *err)
@@ -31,6 +60,8 @@ static bool make_threads(grid_run_state *g, arena *a, lux_error *err)
     const sun_patches *patches = NULL;
     if (!g->o->direct_only &&
         !sun_patches_new(a, g->s, g->seed, g->r->asked, g->o->threads, &patches, err))
+        return false;
+    if (!make_maps(g, a, err))
         return false;
     sensor_ask ask = { g->r->grid->quantity, g->r->asked, in_room, g->seed };
     size_t layers  = (size_t)g->layers + 1;
@@ -46,22 +77,29 @@ static bool make_threads(grid_run_state *g, arena *a, lux_error *err)
         if (!w->direct_of_layer || !make_bundle(g, a, &w->bundle, err))
             return false;
         path_use_patches(w->paths, patches);
+        path_use_maps(w->paths, g->maps.indirect, g->maps.focused);
     }
     return g->threads != NULL;
 }
 
 /* Where the channels stand. */
+/* Whether daylight and other light are told apart. */
+static bool splits(const grid_run_state *g)
+{
+    return g->s->moment_count > 0 && !g->moments && (scene_lamp_count(g->s) > 0 || g->s->glows) &&
+           g->s->study->maintenance != 1.0;
+}
+
 static grid_channels lay_out(const grid_run_state *g)
 {
-    bool both = g->s->moment_count > 0 && !g->moments &&
-                (scene_lamp_count(g->s) > 0 || g->s->glows) && g->s->study->maintenance != 1.0;
-    grid_channels c  = { .judged   = g->moments  ? g->moments
-                                     : g->layers ? LAYERS + g->layers
-                                                 : 1,
-                         .classes  = g->moments ? -1 : 0,
-                         .outside  = -1,
-                         .electric = -1 };
-    c.straight       = c.judged;
+    grid_channels c = { .judged   = g->moments  ? g->moments
+                                    : g->layers ? LAYERS + g->layers
+                                                : 1,
+                        .classes  = g->moments ? -1 : 0,
+                        .smoothed = -1,
+                        .outside  = -1,
+                        .electric = -1 };
+    c.straight      = c.judged;
     if (c.classes == 0) {
         c.classes = c.judged;
         c.straight += LIGHT_CLASSES;
@@ -69,9 +107,11 @@ static grid_channels lay_out(const grid_run_state *g)
     c.straight_count = g->moments ? g->moments : 1 + g->layers;
     c.met            = c.straight + c.straight_count;
     c.count          = c.met + 1;
+    if (g->o->transport == TRANSPORT_MAPS || scene_focuses(g->s))
+        c.smoothed = c.count++;
     if (g->o->outside)
         c.outside = c.count++;
-    if (both)
+    if (splits(g))
         c.electric = c.count++;
     return c;
 }
@@ -121,7 +161,7 @@ static void summarise(grid_result *r)
         over += ratio > r->asked;
     }
     bool sampled = !isnan(r->reached);
-    if (sampled && (r->moment_count || !r->layer_count))
+    if (sampled && !r->smoothed && (r->moment_count || !r->layer_count))
         return;
     r->missed  = over; /* as the bounds say; or of layers, which alone were held to the accuracy */
     r->reached = fmax(r->reached, r->worst_half_width);
@@ -255,6 +295,10 @@ static void take_results(const grid_run_state *g, const accuracy_result *got, gr
             r->half_width[k]  = half_width_of(g, got, SAMPLED, k);
             take_layers(g, got, k);
         }
+        double smoothed = got && c->smoothed >= 0 ? mean_of(g, got, c->smoothed, k) : 0.0;
+        r->half_width[k] += STEPS_SMOOTHED * fabs(smoothed);
+        for (int h = 0; h < g->moments; h++)
+            r->moments[h].half_width[k] += STEPS_SMOOTHED * fabs(smoothed);
         r->indirect[k]    = fmax(r->illuminance[k] - r->direct[k], 0.0);
         r->illuminance[k] = r->direct[k] + r->indirect[k];
         if (r->outside)
@@ -262,6 +306,7 @@ static void take_results(const grid_run_state *g, const accuracy_result *got, gr
         if (r->electric)
             r->electric[k] += mean_of(g, got, c->electric, k);
     }
+    r->smoothed = got && c->smoothed >= 0;
     widen_all(g, r);
 }
 
@@ -274,6 +319,15 @@ static bool anything_shines(const scene *s)
     return shines;
 }
 
+/* The share of the accuracy that is left for what maps smooth. */
+static double room_for_smoothing(const grid_run_state *g) { return g->maps.indirect ? 0.15 : 0.0; }
+
+/* A scramble; more where some light comes by way of what is nearly a mirror: it is met rarely. */
+static int first_samples(const scene *s)
+{
+    return s->by_lamps.narrow > SHARE_THAT_MATTERS ? MIRROR_SAMPLES / SCRAMBLES : 8;
+}
+
 static bool sample_rest(arena *a, grid_run_state *g, grid_result *r, lux_error *err)
 {
     accuracy_desc d = { .items         = r->sensor_count,
@@ -283,10 +337,10 @@ static bool sample_rest(arena *a, grid_run_state *g, grid_result *r, lux_error *
                         .apart         = g->moments > 0,
                         .exact         = g->known,
                         .bound         = g->bound,
-                        .accuracy      = r->asked - g->o->bound,
+                        .accuracy      = (r->asked - g->o->bound) * (1.0 - room_for_smoothing(g)),
                         .needed        = 1.0,
                         .floor         = FLOOR_MEAN,
-                        .first_samples = g->s->mirrors ? MIRROR_SAMPLES / SCRAMBLES : 8,
+                        .first_samples = first_samples(g->s),
                         .dark_samples  = 256,
                         .only_samples  = g->o->only_samples,
                         .threads       = g->o->threads,
@@ -392,8 +446,9 @@ bool grid_run(arena *a, const scene *s, const study_grid *grid, const run_option
     double begun     = clock_seconds();
     arena scratch    = { 0 };
     uint32_t seed    = hash_text_u32(hash_u32(o->seed), grid->name);
+    run_options own  = *o;
     grid_run_state g = { .s       = s,
-                         .o       = o,
+                         .o       = &own,
                          .r       = out,
                          .layers  = s->layered ? s->group_count : 0,
                          .moments = s->by_moment ? s->moment_count : 0,
@@ -403,19 +458,23 @@ bool grid_run(arena *a, const scene *s, const study_grid *grid, const run_option
                                       .bounces       = o->bounces,
                                       .roulette_from = o->roulette_from },
                          .seed    = seed };
-    g.channels       = lay_out(&g);
+    if (g.moments || splits(&g)) /* maps tell of all light together */
+        own.transport = TRANSPORT_PATH;
+    g.channels = lay_out(&g);
     for (int i = 0; i < s->sun_count; i++)
         g.disks |= light_has_extent(s->lights[scene_lamp_count(s) + i]);
 
-    bool good           = grid_sensors(a, s, grid, out, err);
-    out->asked          = !isnan(o->accuracy)          ? o->accuracy
-                          : !isnan(s->study->accuracy) ? s->study->accuracy
-                                                       : GRID_DEFAULT_PERCENT / 100.0;
-    out->left_to_chance = scene_left_to_chance(s, o->direct_only);
-    good                = good && make_results(a, &g, out, err) && make_known(&scratch, &g, err) &&
+    bool good  = grid_sensors(a, s, grid, out, err);
+    out->asked = !isnan(o->accuracy)          ? o->accuracy
+                 : !isnan(s->study->accuracy) ? s->study->accuracy
+                                              : GRID_DEFAULT_PERCENT / 100.0;
+    out->left_to_chance =
+        scene_left_to_chance(s, o->direct_only, !quantity_is_round(grid->quantity));
+    good = good && make_results(a, &g, out, err) && make_known(&scratch, &g, err) &&
            make_threads(&g, &scratch, err) && run(a, &g, out, err) && all_finite(s, out, err);
     if (good) {
         summarise(out);
+        out->rays = g.maps.rays;
         for (int t = 0; t < o->threads; t++)
             out->rays += direct_sensor_rays(g.threads[t].direct) + sun_rays(g.threads[t].suns) +
                          path_rays(g.threads[t].paths);

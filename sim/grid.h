@@ -31,8 +31,9 @@ typedef struct run_options {
     bool direct_only;
     bool outside; /* grids: tell grid_result.outside */
     transport transport;
-    const char *maps;   /* file of illumination maps: read if it is there, else made; NULL */
-    bool bounded;       /* `bounces` counts */
+    const char *maps; /* file of illumination maps: read if it is there, else made; NULL */
+    const struct illumination_map *indirect; /* made before, for TRANSPORT_MAPS; NULL */
+    bool bounded;                            /* `bounces` counts */
     int bounces;        /* reflections at most, >= 0: what comes after more is left out */
     int roulette_from;  /* reflections before which no path is ended by chance */
     int only_samples;   /* a sensor or pixel, neither fewer nor more; 0: as accuracy asks */
@@ -82,6 +83,7 @@ typedef struct grid_result {
     double worst_half_width;    /* relative to max(illuminance, a tenth of the average) */
     double asked;               /* the accuracy that was asked for */
     int missed;                 /* sensors whose half width is beyond it */
+    bool smoothed;              /* half widths hold what illumination maps smooth */
     int in_doubt;               /* that see surfaces, and by way of them no light at all */
     double reached;             /* the accuracy that every sensor has */
     run_end end;                /* why it ended; what is here is complete all the same */

@@ -7,6 +7,7 @@
 #include "sim/accuracy.h"
 #include "sim/direct_sensor.h"
 #include "sim/grid.h"
+#include "sim/light_maps.h"
 #include "sim/path.h"
 #include "sim/sun_seen.h"
 
@@ -21,6 +22,7 @@ typedef struct grid_channels {
     int classes; /* LIGHT_CLASSES, of all as dimmed; -1: of a series not asked for */
     int straight, straight_count;
     int met;      /* what sees a reflecting surface */
+    int smoothed; /* by how much maps would be off if they were coarser; -1: there are none */
     int outside;  /* -1: not asked for; so are the next */
     int electric; /* what is no daylight */
     int count;
@@ -50,7 +52,8 @@ typedef struct grid_run_state {
     double *known, *bound; /* lx: of each layer, or of all; [layer * sensors + sensor] */
     double *sun_known;     /* lx: of each sun, [sun * sensors + sensor]; NAN: samples add nothing */
     double *sun_share;     /* what of it is seen */
-    bool disks;            /* some sun is more than a point */
+    light_maps maps;
+    bool disks; /* some sun is more than a point */
     grid_channels channels;
     path_options paths;
     atomic_bool lamps_left; /* some lamps take samples */

@@ -234,7 +234,29 @@ static void put(const grid_run_state *g, const thread_scratch *w, int i, float a
         values[FULL * BUNDLE + i] = full;
 }
 
-static void take_sample(const grid_run_state *g, thread_scratch *w, int i, float *values)
+/* lx, of all light that maps of focused light know at a sensor; of each layer, too. */
+static float focused_at(const grid_run_state *g, thread_scratch *w, int i, const sample_id *id,
+                        float *smoothed)
+{
+    const scene *s       = g->s;
+    const path_bundle *b = &w->bundle;
+    float all            = 0.0f;
+    for (int l = g->layers ? 0 : -1; l < g->layers; l++) {
+        vec3 coarse, fine = illumination_map_at_sensor(g->maps.focused, (int)id->item,
+                                                       (int)b->set[i], l, &coarse);
+        float lux    = (float)LUMENS_PER_WATT * rgb_luminance(fine);
+        float off    = lux - (float)LUMENS_PER_WATT * rgb_luminance(coarse);
+        float dimmed = l < 0 ? 1.0f : scene_dimming_of_group(s, l);
+        if (l >= 0)
+            w->of_layer[l] += lux;
+        all += dimmed * lux;
+        *smoothed += dimmed * off;
+    }
+    return all;
+}
+
+static void take_sample(const grid_run_state *g, thread_scratch *w, int i, const sample_id *id,
+                        float *values)
 {
     const path_bundle *b   = &w->bundle;
     const grid_channels *c = &g->channels;
@@ -250,7 +272,10 @@ static void take_sample(const grid_run_state *g, thread_scratch *w, int i, float
         add_straight(g, w, scene_lamp_count(g->s) + w->sun[i], w->sun_e[i], &straight);
     float reflected = lux_of(&b->indirect, i);
     float mirrored  = b->mirrored ? lux_of(b->mirrored, i) : 0.0f;
-    float focused   = g->focused ? focused_at(g, i, ids) : 0.0f;
+    float smoothed  = b->smoothed ? (float)LUMENS_PER_WATT * b->smoothed[i] : 0.0f;
+    float focused   = g->maps.focused ? focused_at(g, w, i, id, &smoothed) : 0.0f;
+    if (c->smoothed >= 0)
+        values[c->smoothed * BUNDLE + i] = smoothed;
     put(g, w, i, straight + reflected + focused, straight, values);
     if (c->classes >= 0) {
         values[(c->classes + CLASS_DIRECT) * BUNDLE + i]    = straight;
@@ -262,7 +287,8 @@ static void take_sample(const grid_run_state *g, thread_scratch *w, int i, float
     if (c->outside >= 0)
         values[c->outside * BUNDLE + i] = lux_of(b->outside, i);
     if (c->electric >= 0)
-        values[c->electric * BUNDLE + i] = lamps_and_paths + reflected - lux_of(b->daylight, i);
+        values[c->electric * BUNDLE + i] =
+            lamps_and_paths + reflected + focused - lux_of(b->daylight, i);
 }
 
 void grid_sample(void *context, int thread, const sample_id *ids, int count, float *values)
@@ -290,5 +316,5 @@ void grid_sample(void *context, int thread, const sample_id *ids, int count, flo
         sample_suns(g, w, ids, count);
     path_trace(w->paths, b, &g->paths);
     for (int i = 0; i < count; i++)
-        take_sample(g, w, i, values);
+        take_sample(g, w, i, &ids[i], values);
 }

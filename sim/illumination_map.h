@@ -44,6 +44,11 @@ typedef struct map_options {
     progress *progress;         /* NULL */
 } map_options;
 
+/* How far off what maps smooth may make a result, in steps to coarser cells, of half the size: what
+ * is in error falls by a half or more with each step, so that all finer ones together are worth
+ * one; doubled. */
+#define STEPS_SMOOTHED 2.0
+
 typedef struct illumination_map illumination_map;
 
 /* NULL, with *err: memory is out, or (ERR_INTERRUPTED) the user stopped it. */

@@ -36,10 +36,11 @@ enum {
 
 /* And bits */
 enum {
-    SCATTERED = 1, /* it has left a surface other than straight on, */
-    SPREAD    = 2, /* once in a direction drawn from many, */
-    NO_IMAGE  = 4, /* once other than a mirror image that paths ask for; */
-    FROM_MATT = 8, /* the last was such a one */
+    SCATTERED = 1,  /* it has left a surface other than straight on, */
+    SPREAD    = 2,  /* once in a direction drawn from many, */
+    NO_IMAGE  = 4,  /* once other than a mirror image that paths ask for; */
+    FROM_MATT = 8,  /* the last was such a one */
+    LOST      = 16, /* within a plate of glass it was reflected: paths leave that out, too */
 };
 
 struct map_tracer {
@@ -217,7 +218,7 @@ static vmask follow_images(map_tracer *t, int k, vmask single, vmask wide)
 static vmask counts(const map_tracer *t, int k)
 {
     vint state = vload_int(t->state + k * LANES);
-    vmask some = (state & NO_IMAGE) != 0;
+    vmask some = ((state & NO_IMAGE) != 0) & ((state & LOST) == 0);
     return t->job->kind == MAP_INDIRECT ? some : some & ((state & SPREAD) == 0);
 }
 
@@ -368,17 +369,23 @@ static vfloat adjoint(const vshading *s, const vvec3 *wi)
     return tilt(s, &s->wo) * vabs(vdot(*wi, s->flat)) / vmax(vabs(vdot(*wi, s->n)), vsplat(1e-6f));
 }
 
-static void note_scattered(map_tracer *t, int k, const vscatter *next)
+static void note_scattered(map_tracer *t, int k, vmask active, const vscatter *next)
 {
+    vint does    = vgather_int(t->job->s->material_does, vkeep_int(active, t->at[k].material));
     vint before  = vload_int(t->state + k * LANES);
     vmask single = next->pdf == INFINITY;
-    vmask goes   = ~next->straight;
-    vmask image  = follow_images(t, k, goes & single & ~next->bent, goes & (~single | next->bent));
+    vmask plate  = ((does & DOES_SOLID) != 0) & ((does & DOES_LENS) == 0);
+    vmask inner  = single & plate & ~next->bent & ~t->shading[k].front;
+    vmask on     = next->straight | (single & plate & next->bent); /* as shadow rays pass it */
+    vmask image  = follow_images(t, k, single & ~on & ~inner & ~next->bent,
+                                 ~on & (~single | next->bent | inner));
     vint bits =
         vselect_int(single, vsplat_int(SCATTERED), vsplat_int(SCATTERED | SPREAD | FROM_MATT));
     bits       = vselect_int(image, bits, bits | NO_IMAGE);
-    vint after = (before & ~FROM_MATT) | bits;
-    vstore_int(t->state + k * LANES, vselect_int(next->straight, before, after));
+    bits       = vselect_int(inner, bits | LOST, bits);
+    vint kept  = vselect_int(single, before, before & ~LOST);
+    vint after = (kept & ~FROM_MATT) | bits;
+    vstore_int(t->state + k * LANES, vselect_int(on, before, after));
 }
 
 /* Draws where particles go on, or that they end. */
@@ -425,7 +432,7 @@ static void draw_directions(map_tracer *t)
         vscatter next;
         vmask active = arrive(t, k);
         vmask goes   = next_direction(t, k, active, &next);
-        note_scattered(t, k, &next);
+        note_scattered(t, k, active, &next);
         store3(t, PLACE, k, vray_start(&t->at[k], &next.wi));
         store3(t, WAY, k, next.wi);
         kept = keep(t, k, goes, kept);

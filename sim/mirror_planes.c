@@ -301,11 +301,10 @@ static bool make_chains(arena *a, mirrors *m, lux_error *err)
 {
     size_t planes        = (size_t)m->plane_count;
     mirror_image *images = arena_array(a, mirror_image, MOST_MIRROR_IMAGES, err);
-    int32_t *next   = images ? arena_array(a, int32_t, MOST_MIRROR_IMAGES * planes, err) : NULL;
-    size_t room     = MOST_MIRROR_IMAGES * MOST_MIRROR_IMAGES / 2;
-    int32_t *earlier =
-        next ? arena_array(a, int32_t, MOST_MIRROR_IMAGES * planes, err) : NULL;
-    int32_t *chains = earlier ? arena_array(a, int32_t, room, err) : NULL;
+    int32_t *next    = images ? arena_array(a, int32_t, MOST_MIRROR_IMAGES * planes, err) : NULL;
+    size_t room      = MOST_MIRROR_IMAGES * MOST_MIRROR_IMAGES / 2;
+    int32_t *earlier = next ? arena_array(a, int32_t, MOST_MIRROR_IMAGES * planes, err) : NULL;
+    int32_t *chains  = earlier ? arena_array(a, int32_t, room, err) : NULL;
     if (!chains)
         return false;
     memset(next, -1, MOST_MIRROR_IMAGES * planes * sizeof *next);
@@ -313,8 +312,9 @@ static bool make_chains(arena *a, mirrors *m, lux_error *err)
     images[0] = (mirror_image){ .before = -1,
                                 .share  = 1.0f,
                                 .row    = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } };
-    m->images = images, m->chains = chains, m->next = next, m->earlier = earlier, m->image_count = 1;
-    size_t used = 0;
+    m->images = images, m->chains = chains, m->next = next, m->earlier = earlier,
+    m->image_count = 1;
+    size_t used    = 0;
     int from = 0, plane = 0;
     while (m->image_count < MOST_MIRROR_IMAGES &&
            best_longer(m, next, m->image_count, &from, &plane)) {
@@ -335,7 +335,7 @@ static bool make_chains(arena *a, mirrors *m, lux_error *err)
         to->after = without_first(m, next, from, plane);
         earlier[to->after * m->plane_count + chains[to->first]] = m->image_count;
         next[from * m->plane_count + plane]                     = m->image_count++;
-        m->most                             = fmaxf(m->most, to->share);
+        m->most                                                 = fmaxf(m->most, to->share);
     }
     return true;
 }

@@ -126,6 +126,12 @@ static void draw_first_directions(path_tracer *t)
     }
 }
 
+static void or_state(path_tracer *t, int k, vmask lanes, int bits)
+{
+    vint state = vload_int(t->state + k * LANES);
+    vstore_int(t->state + k * LANES, vselect_int(lanes, state | bits, state));
+}
+
 /* What lights that were asked where the path was mean for what it finds next. A single direction
  * that was refracted is one that shadow rays have followed straight on. */
 static void leave(path_tracer *t, int k, const vscatter *next)
@@ -135,10 +141,12 @@ static void leave(path_tracer *t, int k, const vscatter *next)
     vmask narrow = (t->does[k] & DOES_NARROW) != 0;
     vfloat pdf = load(t, PDF, k), lamp = load(t, LAMP_PDF, k);
     vfloat sole = vsplat(INFINITY), already = vsplat(ALREADY);
-    vfloat of_pdf =
-        vselect(single, vselect(next->bent & (pdf < INFINITY), already, sole), next->pdf);
-    vfloat of_lamp = vselect(single, vselect(next->bent & (lamp < INFINITY), already, sole),
-                             vselect(narrow, next->pdf, already));
+    vmask lens     = (t->does[k] & DOES_LENS) != 0;
+    vmask began    = state_has(t, k, WIDE); /* somewhere where lights were asked for */
+    vmask bent     = began & (state_has(t, k, BENT) | (next->bent & ~lens));
+    vfloat of_pdf  = vselect(single, vselect(bent, already, sole), next->pdf);
+    vfloat of_lamp = vselect(single, of_pdf, vselect(narrow, next->pdf, already));
+    or_state(t, k, left & single & bent, BENT);
     if (t->patches) {
         store(t, ONTO, k, vselect(left, path_onto(t, k, left), load(t, ONTO, k)));
         store3(t, FARTHER, k, vselect3(left, load3(t, LEFT, k), load3(t, FARTHER, k)));
@@ -154,13 +162,29 @@ static void leave_base(path_tracer *t, int k, const vscatter *next)
 {
     vmask left   = t->active[k] & ~next->straight;
     vmask single = left & (next->pdf == INFINITY);
+    vmask inside = ((t->does[k] & DOES_SOLID) != 0) & ~t->shading[k].front;
     vint image   = images_of(t, k);
     vhit hit     = { .instance = vkeep_int(single, vload_int(t->instance + k * LANES)),
                      .triangle = vkeep_int(single, vload_int(t->triangle + k * LANES)) };
-    vint longer  = mirrors_follow(t->s->mirror_images, image, &hit, single & ~next->bent);
+    vmask mirror = single & ~next->bent & ~inside;
+    vint longer  = mirrors_follow(t->s->mirror_images, image, &hit, mirror);
     vstore_int(t->image + k * LANES, vselect_int(single, longer, image));
     path_set_base(t, k, left & ~single, false, t->at[k].position, t->at[k].normal, t->around[k],
                   next->pdf);
+}
+
+/* What maps find of lamps that the path meets from here on by single directions alone. */
+static void leave_to_maps(path_tracer *t, int k, const vscatter *next)
+{
+    vmask single = t->active[k] & ~next->straight & (next->pdf == INFINITY);
+    vmask plate  = next->bent & ((t->does[k] & DOES_LENS) == 0);
+    vmask images = (vmask){ 0 };
+    if (t->s->mirror_images)
+        images = images_of(t, k) > 0;
+    vmask focused = single & ~plate & ~images & state_has(t, k, WIDE);
+    or_state(t, k, focused, FOCUSED);
+    vmask skip = t->active[k] & state_has(t, k, FOCUSED);
+    store(t, LAMP_PDF, k, vselect(skip, vsplat(ALREADY), load(t, LAMP_PDF, k)));
 }
 
 static void note_scattered(path_tracer *t, int k, const vscatter *next)
@@ -168,7 +192,8 @@ static void note_scattered(path_tracer *t, int k, const vscatter *next)
     vint before = vload_int(t->state + k * LANES);
     vint around = vselect_int(t->around[k], vsplat_int(AROUND), vsplat_int(0));
     vint wide   = vselect_int(next->pdf < INFINITY, vsplat_int(WIDE), vsplat_int(0));
-    vint kept   = before & (WIDE | OUTDOORS | NOWHERE | ALL_ROUND);
+    vint single = vselect_int(next->pdf == INFINITY, vsplat_int(BENT | FOCUSED), vsplat_int(0));
+    vint kept   = before & (WIDE | OUTDOORS | NOWHERE | ALL_ROUND | single);
     vint after  = kept | wide | around | SCATTERED;
     vstore_int(t->state + k * LANES, vselect_int(next->straight, before | PASSED, after));
     if (t->fields < FIELDS)
@@ -213,6 +238,8 @@ static void draw_directions(path_tracer *t)
         note_scattered(t, k, &next);
         if (t->s->mirror_images)
             leave_base(t, k, &next);
+        if (t->focused)
+            leave_to_maps(t, k, &next);
         store3(t, PLACE, k, vray_start(&t->at[k], &next.wi));
         store3(t, WAY, k, next.wi);
         kept = keep(t, k, goes, kept);

@@ -23,8 +23,8 @@
 #ifndef SIM_PATH_H
 #define SIM_PATH_H
 
-#include "sim/scene.h"
 #include "sim/illumination_map.h"
+#include "sim/scene.h"
 #include "sim/sun_patch.h"
 
 enum { PATHS = 1024 }; /* most at once; a multiple of every packet width */
@@ -53,9 +53,9 @@ typedef struct path_bundle {
     path_sums *outside;  /* NULL; or what of `indirect` came last from the ground or from a surface
                             that is outside */
     path_sums *daylight; /* NULL; or what is of suns and skies */
-    float *smoothed;     /* NULL; or of PATHS: W/m^2, as luminance, by which it would be less if maps
-                            were coarser by a step */
-    float met[PATHS];    /* 1 if the first ray met a surface that gives light on, else 0 */
+    float *smoothed;  /* NULL; or of PATHS: W/m^2, as luminance, by which it would be less if maps
+                         were coarser by a step */
+    float met[PATHS]; /* 1 if the first ray met a surface that gives light on, else 0 */
 } path_bundle;
 
 typedef struct path_options {

@@ -29,7 +29,7 @@ static void add(path_tracer *t, int k, vmask lanes, vrgb e, vrgb back, int group
     const scene *s = t->s;
     path_layer to  = { .group = group < 0 ? 0 : group, .dimming = 1.0f };
     if (group >= 0)
-        to.dimming = group_dimming(s, group);
+        to.dimming = scene_dimming_of_group(s, group);
     path_add(t, k, lanes, (vmask){ 0 }, vmul(back, e), &to);
 }
 

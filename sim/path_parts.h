@@ -39,24 +39,26 @@ enum {
 
 /* Of a living path, bits. */
 enum {
-    SCATTERED = 1,  /* it has left its beginning other than straight on */
-    AROUND    = 2,  /* where it was last, light from below the horizon counts */
-    PASSED    = 4,  /* it has gone straight on through something since */
-    WIDE      = 8,  /* some direction of it was drawn from many */
-    OUTDOORS  = 16, /* the first surface that it met is outside */
-    NOWHERE   = 32, /* its base is its beginning */
-    ALL_ROUND = 64, /* at its base light from below the horizon counted */
+    SCATTERED = 1,   /* it has left its beginning other than straight on */
+    AROUND    = 2,   /* where it was last, light from below the horizon counts */
+    PASSED    = 4,   /* it has gone straight on through something since */
+    WIDE      = 8,   /* some direction of it was drawn from many */
+    OUTDOORS  = 16,  /* the first surface that it met is outside */
+    NOWHERE   = 32,  /* its base is its beginning */
+    ALL_ROUND = 64,  /* at its base light from below the horizon counted */
+    BENT      = 128, /* it has entered a plate of glass, which shadow rays have passed straight */
+    FOCUSED   = 256, /* it has met what focuses: lamps that it meets are for maps */
 };
 
 struct path_tracer {
     const scene *s;
     const path_options *o;
     direct_scratch *direct;
-    seen_lamps shown;           /* lamps that rays may find */
-    const lamp_boxes *boxes;    /* of those */
-    const sun_patches *patches; /* NULL: no sun comes in by a portal */
+    seen_lamps shown;                           /* lamps that rays may find */
+    const lamp_boxes *boxes;                    /* of those */
+    const sun_patches *patches;                 /* NULL: no sun comes in by a portal */
     const illumination_map *indirect, *focused; /* NULL */
-    int32_t *list;              /* room for as many */
+    int32_t *list;                              /* room for as many */
     int64_t ray_count;
     path_bundle *b;
     int alive, fields;  /* of those below that are carried */

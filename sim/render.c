@@ -79,8 +79,9 @@ static void take_pixels(const view_run_state *v, const accuracy_result *got, vie
                 length2 > 0.0 ? (float)(mean[(NORMAL + c) * n + from] / sqrt(length2)) : 0.0f;
         out->illuminance[to] = seen > 0.0 ? (float)(mean[ILLUMINANCE * n + from] / seen) : 0.0f;
         out->distance[to]    = seen > 0.0 ? (float)(mean[DISTANCE * n + from] / seen) : 0.0f;
-        out->half_width[to]  = (float)(got->half_width[i]);
-        double luminance     = got->mean[LUMINANCE * n + from];
+        out->half_width[to] =
+            (float)(got->half_width[i] + STEPS_SMOOTHED * fabs(mean[SMOOTHED * n + from]));
+        double luminance = got->mean[LUMINANCE * n + from];
         take_layers(v, got, out, from, to);
         if (luminance > 0.0)
             logs += log(luminance), bright += 1.0;
@@ -97,6 +98,9 @@ static bool make_threads(view_run_state *v, arena *a, lux_error *err)
     if (!v->o->direct_only &&
         !sun_patches_new(a, v->s, v->seed, v->asked, v->o->threads, &patches, err))
         return false;
+    if (!light_maps_make(a, v->s, v->o, v->asked, NULL, &v->maps, err))
+        return false;
+    bool maps  = v->maps.indirect || v->maps.focused;
     v->shown   = lamps_that_show(a, v->s, err);
     v->threads = v->shown.lamps ? arena_array(a, view_scratch, (size_t)v->o->threads, err) : NULL;
     for (int t = 0; v->threads && t < v->o->threads; t++) {
@@ -106,10 +110,16 @@ static bool make_threads(view_run_state *v, arena *a, lux_error *err)
             w->bundle.layers = arena_array(a, path_sums, 2 * (size_t)v->layers, err);
             w->eye.layers    = arena_array(a, path_sums, 2 * (size_t)v->layers, err);
         }
+        if (maps) {
+            w->bundle.smoothed = arena_array(a, float, PATHS, err);
+            w->eye.smoothed    = arena_array(a, float, PATHS, err);
+        }
         w->lamps = arena_array(a, int32_t, (size_t)v->shown.count + 1, err);
-        if (!w->paths || !w->lamps || (v->layers && !(w->bundle.layers && w->eye.layers)))
+        if (!w->paths || !w->lamps || (maps && !(w->bundle.smoothed && w->eye.smoothed)) ||
+            (v->layers && !(w->bundle.layers && w->eye.layers)))
             return false;
         path_use_patches(w->paths, patches);
+        path_use_maps(w->paths, v->maps.indirect, v->maps.focused);
     }
     return v->threads != NULL;
 }
@@ -118,12 +128,12 @@ static bool run(arena *a, arena *scratch, view_run_state *v, view_result *out, l
 {
     if (!make_planes(a, out, err) || !make_threads(v, scratch, err))
         return false;
-    accuracy_desc d = { .items         = out->width * out->height,
-                        .channels      = CHANNELS + before_plain(v) + OF_LAYER * v->layers,
-                        .judged        = 1 + before_plain(v),
-                        .accuracy      = out->asked - v->o->bound,
-                        .needed        = 0.98,
-                        .floor         = FLOOR_LOG_MEAN,
+    accuracy_desc d = { .items    = out->width * out->height,
+                        .channels = CHANNELS + before_plain(v) + OF_LAYER * v->layers,
+                        .judged   = 1 + before_plain(v),
+                        .accuracy = (out->asked - v->o->bound) * (v->maps.indirect ? 0.9 : 1.0),
+                        .needed   = 0.98,
+                        .floor    = FLOOR_LOG_MEAN,
                         .first_samples = 1,
                         .only_samples  = v->o->only_samples,
                         .threads       = v->o->threads,
@@ -166,10 +176,11 @@ bool view_run(arena *a, const scene *s, const study_view *view, const run_option
                                         .width       = v.camera.width,
                                         .height      = v.camera.height,
                                         .asked = isnan(o->accuracy) ? VIEW_DEFAULT_PERCENT / 100.0 : o->accuracy,
-                                        .left_to_chance = scene_left_to_chance(s, o->direct_only) };
+                                        .left_to_chance = scene_left_to_chance(s, o->direct_only, true) };
     v.asked            = out->asked;
     progress_begin(o->progress, view->name);
     bool good = run(a, &scratch, &v, out, err);
+    out->rays = v.maps.rays;
     for (int t = 0; good && t < o->threads; t++)
         out->rays += v.threads[t].ray_count + path_rays(v.threads[t].paths);
     out->seconds = clock_seconds() - begun;

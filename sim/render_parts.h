@@ -6,6 +6,7 @@
 
 #include "sim/accuracy.h"
 #include "sim/camera.h"
+#include "sim/light_maps.h"
 #include "sim/path.h"
 #include "sim/render.h"
 #include "sim/seen_lamps.h"
@@ -21,7 +22,8 @@ enum {
     DISTANCE,
     NORMAL,
     ALBEDO   = NORMAL + 3,
-    CHANNELS = ALBEDO + 3,
+    SMOOTHED = ALBEDO + 3, /* cd/m^2, by which it would be less if maps were coarser by a step */
+    CHANNELS,
 };
 
 /* In a layered scene the luminances of all light undimmed and of groups, which are judged as well,
@@ -50,6 +52,7 @@ typedef struct view_run_state {
     const run_options *o;
     camera camera;
     view_scratch *threads;
+    light_maps maps;
     path_options paths, eye_paths;
     int layers; /* 0 unless the scene is layered */
     seen_lamps shown;

@@ -140,6 +140,7 @@ static void add_skies(const view_run_state *v, const view_scratch *w, float *val
 static void note_surface(float *to, bool seen, int i, const vhit *hit, const vvec3 *n,
                          const vrgb *albedo)
 {
+    to[SMOOTHED * BUNDLE]     = 0.0f;
     to[SEEN * BUNDLE]         = seen;
     to[DISTANCE * BUNDLE]     = seen ? lane(hit->distance, i) : 0.0f;
     to[(NORMAL + 0) * BUNDLE] = seen ? lane(n->x, i) : 0.0f;
@@ -247,6 +248,61 @@ static void add_reflected(float *rgb, float *illuminance, const float *albedo, b
     illuminance[i] = (float)LUMENS_PER_WATT * rgb_luminance((vec3){ e[0], e[1], e[2] });
 }
 
+/* The hits that paths p and so on begin at, and whether they see their front. */
+static vmask hits_of(const view_run_state *v, const view_scratch *w, int p, vhit *hit, vmask *front)
+{
+    const path_bundle *b = &w->bundle;
+    float u[LANES] = { 0 }, t[LANES]         = { 0 };
+    int32_t instance[LANES], triangle[LANES] = { 0 };
+    for (int i = 0; i < LANES; i++) {
+        instance[i] = -1;
+        if (p + i >= b->count)
+            continue;
+        int sample     = w->sample_of[p + i];
+        const vhit *at = &w->hits[sample / LANES];
+        instance[i]    = lane(at->instance, sample % LANES);
+        triangle[i]    = lane(at->triangle, sample % LANES);
+        u[i]           = lane(at->u, sample % LANES);
+        t[i]           = lane(at->v, sample % LANES);
+    }
+    *hit        = (vhit){ .instance = vload_int(instance), .triangle = vload_int(triangle) };
+    hit->u      = vload(u);
+    hit->v      = vload(t);
+    vmask lanes = hit->instance >= 0;
+    vsurface at;
+    world_surface(v->s->world, hit, lanes, &at);
+    vvec3 n = { vload(b->nx + p), vload(b->ny + p), vload(b->nz + p) };
+    *front  = vdot(at.normal, n) > 0.0f;
+    return lanes;
+}
+
+/* Focused light that lies on what is seen. */
+static void add_focused(const view_run_state *v, view_scratch *w)
+{
+    path_bundle *b = &w->bundle;
+    for (int p = 0; p < b->count; p += LANES) {
+        vhit hit;
+        vmask front, lanes = hits_of(v, w, p, &hit, &front);
+        vint set = vload_int((const int32_t *)b->set + p);
+        for (int l = v->layers ? 0 : -1; l < v->layers; l++) {
+            vrgb e, coarse;
+            float of[3][LANES];
+            illumination_map_look(v->maps.focused, &hit, front, vkeep_int(lanes, set), l, lanes, &e,
+                                  &coarse);
+            float dimmed = l < 0 ? 1.0f : scene_dimming_of_group(v->s, l);
+            vstore(of[0], e.x), vstore(of[1], e.y), vstore(of[2], e.z);
+            for (int i = 0; i < LANES && p + i < b->count; i++) {
+                for (int c = 0; c < 3; c++) {
+                    b->indirect[c][p + i] += dimmed * of[c][i];
+                    if (l >= 0)
+                        b->layers[l][c][p + i] += of[c][i];
+                }
+                b->smoothed[p + i] += dimmed * lane(vrgb_luminance(vsub(e, coarse)), i);
+            }
+        }
+    }
+}
+
 /* What the paths from what is seen have found; of the samples marked, not of what is seen. */
 static void take_paths(const view_run_state *v, const view_scratch *w, const bool *by_eye,
                        float *values)
@@ -257,6 +313,11 @@ static void take_paths(const view_run_state *v, const view_scratch *w, const boo
         int i      = w->sample_of[p];
         float e[3] = { b->direct[0][p] + b->indirect[0][p], b->direct[1][p] + b->indirect[1][p],
                        b->direct[2][p] + b->indirect[2][p] };
+        if (b->smoothed && !by_eye[i]) {
+            vec3 back = { albedo[i], albedo[BUNDLE + i], albedo[2 * BUNDLE + i] };
+            plain[SMOOTHED * BUNDLE + i] =
+                (float)LUMENS_PER_WATT * 0.318309886f * rgb_luminance(back) * b->smoothed[p];
+        }
         add_reflected(plain + RED * BUNDLE, plain + ILLUMINANCE * BUNDLE, albedo, !by_eye[i], i, e);
         for (int l = 0; l < v->layers; l++) {
             float own[3] = { b->layers[l][0][p], b->layers[l][1][p], b->layers[l][2][p] };
@@ -275,6 +336,8 @@ static void take_eye_paths(const view_run_state *v, const view_scratch *w, bool 
     for (int p = 0; p < b->count; p++) {
         int i     = w->eye_sample_of[p];
         by_eye[i] = true;
+        if (b->smoothed)
+            plain_of(v, values)[SMOOTHED * BUNDLE + i] = (float)LUMENS_PER_WATT * b->smoothed[p];
         for (int c = 0; c < 3; c++)
             rgb[c * BUNDLE + i] = b->direct[c][p] + b->indirect[c][p];
         for (int l = 0; l < v->layers; l++)
@@ -292,6 +355,8 @@ void view_sample(void *context, int thread, const sample_id *ids, int count, flo
     trace_camera(v, w, ids, count);
     begin_paths(v, w, ids, count, values);
     path_trace(w->paths, &w->bundle, &v->paths);
+    if (v->maps.focused)
+        add_focused(v, w);
     if (w->eye.count > 0) {
         path_trace(w->paths, &w->eye, &v->eye_paths);
         take_eye_paths(v, w, by_eye, values);

@@ -98,6 +98,8 @@ static bool say_what_surfaces_do(const scene_build *b, scene *s)
         s->solids |= s->materials[i]->solid;
     }
     s->material_does = does;
+    if (does && !scene_find_lenses(s, does, b->err))
+        return false;
     if (s->light_count == 0 && s->sky_count == 0 && !s->glows)
         notice_add(b->notices, "%s: nothing gives light: every result will be 0 lx",
                    b->study->path);
@@ -198,6 +200,16 @@ static bool take_groups(scene_build *b, scene *s)
     return true;
 }
 
+float scene_dimming_of_group(const scene *s, int group)
+{
+    if (s->glows && group == s->glow_group)
+        return s->glow_dimming;
+    for (int l = 0; l < s->light_count; l++)
+        if (s->light_info[l].group == group)
+            return s->light_info[l].dimming;
+    return 1.0f;
+}
+
 bool scene_is_lit(const scene *s) { return s->light_count > 0 || s->sky_count > 0 || s->glows; }
 
 bool scene_is_in_room(const scene *s, dvec3 p)
@@ -291,8 +303,7 @@ const scene *scene_new(arena *a, const study *from, const scene_options *o, noti
     s->light_info = b.light_info.items;
     say_what_lights_are(s);
     s->small_patches = scene_small_patches(s, n);
-    scene_find_focus(s, n);
-    if (!scene_find_glints(s, n, err))
+    if (!scene_find_ways(s, n, err))
         return NULL;
     force_on(&b, s);
     return s;

@@ -167,10 +167,10 @@ typedef struct scene {
     bool narrow;                  /* some are not matt: rays find lamps by way of them */
 
     const mirrors *mirror_images; /* NULL: no plane mirror or pane that lamps or suns light */
-    bool unshadowed, untinted; /* as asked for: no shadow ray is traced; what lets light straight
-                                  through lets all of it pass */
-    bool asks_all;             /* so, too: sensors ask all lamps, however many */
-    bool pixel_centres;        /* so, too: views look through the middles of pixels */
+    bool unshadowed, untinted;    /* as asked for: no shadow ray is traced; what lets light straight
+                                     through lets all of it pass */
+    bool asks_all;                /* so, too: sensors ask all lamps, however many */
+    bool pixel_centres;           /* so, too: views look through the middles of pixels */
 
     bool reflects;          /* light goes on from some surface, to either side */
     bool glows;             /* some surface emits light */
@@ -180,8 +180,8 @@ typedef struct scene {
     uint64_t picture_bytes; /* of the largest picture decoded, while its texture is made */
     bool lenses;            /* some solids are no plates */
     scene_ways by_lamps, by_suns;
-    bool lamps_hide; /* some lamps are too small to be met by rays, by way of narrow lobes */
-    int small_patches;      /* lamps that light a patch too small for samples to find reliably */
+    bool lamps_hide;   /* some lamps are too small to be met by rays, by way of narrow lobes */
+    int small_patches; /* lamps that light a patch too small for samples to find reliably */
 } scene;
 
 /* Whether some light is focused that matters: then results want a map of it. */
@@ -230,6 +230,9 @@ static inline double scene_maintenance(const scene *s, int l)
 {
     return l < s->light_count && s->light_info[l].sun ? 1.0 : s->study->maintenance;
 }
+
+/* By which a layered scene's light of that group is multiplied in the sum of all. */
+float scene_dimming_of_group(const scene *s, int group);
 
 /* What glowing surfaces send out from both sides, dimmed, lm. */
 double scene_glow_lumens(const scene *s);

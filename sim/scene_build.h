@@ -258,11 +258,10 @@ const scene_web *study_web(scene_build *b, const char *path, study_where where);
  * (scene_chance.c). */
 int scene_small_patches(const scene *s, notices *n);
 
-/* Finds whether mirrors send on light that no sampler reaches, of which the user is told
- * (scene_focus.c). */
-void scene_find_focus(scene *s, notices *n);
+/* Marks the materials of solids that are no plates (scene_lens.c). */
+bool scene_find_lenses(scene *s, int32_t *does, lux_error *err);
 
-/* Sunlight by way of mirrors and panes (scene_glint.c), once portals are known. */
-bool scene_find_glints(scene *s, notices *n, lux_error *err);
+/* How much light goes by ways that no path finds, of which the user is told (scene_ways.c). */
+bool scene_find_ways(scene *s, notices *n, lux_error *err);
 
 #endif

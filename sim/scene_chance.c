@@ -322,16 +322,21 @@ int scene_small_patches(const scene *s, notices *n)
     return count + glowing;
 }
 
-const char *scene_left_to_chance(const scene *s, bool direct_only)
+const char *scene_left_to_chance(const scene *s, bool direct_only, bool focused_found)
 {
-    if (!direct_only && s->reflects && s->small_patches > 0)
+    bool plates = s->solids && (s->light_count > 0 || s->emitter_count > 0);
+    if (direct_only)
+        return plates ? "light that bends in solids of glass is taken to pass them straight" : NULL;
+    if (s->reflects && s->small_patches > 0)
         return "lamps light small patches of surface, from where samples rarely find light back";
-    if (!direct_only && s->mirrors_hide)
-        return "light of small lights that comes by way of mirrors or smooth surfaces is rarely "
-               "found";
-    if (!direct_only && s->glints)
-        return "sunlight that comes by way of mirrors, panes or smooth surfaces is not found";
-    if (s->solids && (s->light_count > 0 || s->emitter_count > 0))
-        return "light that bends in solids of glass is taken to pass them straight";
+    if (s->by_suns.narrow > SHARE_THAT_MATTERS)
+        return "sunlight that comes by way of smooth surfaces, not quite mirrors, is rarely found";
+    if (s->lamps_hide && s->by_lamps.narrow > SHARE_THAT_MATTERS)
+        return "light of small lights that comes by way of smooth surfaces, not quite mirrors, is "
+               "rarely found";
+    if (scene_focuses(s) && !focused_found)
+        return "light that round mirrors or solids of glass focus is not found";
+    if (plates && !s->lenses)
+        return "light that bends in plates of glass is taken to pass them straight";
     return NULL;
 }

@@ -1,5 +1,5 @@
-/* sim/scene_lens.c -- which solids of glass are plates, which light passes about straight, and which
- * bend it: lenses, balls, blocks.
+/* sim/scene_lens.c -- which solids of glass are plates, which light passes about straight, and
+ * which bend it: lenses, balls, blocks.
  *
  * Rays from all around meet the solids of a scene; where one does, the solid's far side is looked
  * for. A plate's is near and even with this one, and its edges are far.
@@ -65,8 +65,8 @@ static vmask is_plate(const scene *s, const vsurface *at, vmask met)
 
 static void look(const scene *s, uint32_t first, finding *of)
 {
-    vuint index  = vunsigned(vlane_index()) + first;
-    vsample4 u   = vsobol4(index, vsplat_uint(1)), v = vsobol4(index, vsplat_uint(2));
+    vuint index = vunsigned(vlane_index()) + first;
+    vsample4 u = vsobol4(index, vsplat_uint(1)), v = vsobol4(index, vsplat_uint(2));
     vray ray     = ray_through(s, u, v);
     vmask active = ALL_LANES;
     for (int layer = 0; layer < 4 && vany(active); layer++) {

@@ -18,10 +18,10 @@
 
 enum { PARTICLES = 1 << 14, MOST_MEETINGS = 16, WAY_SEED = 0x3a75 };
 
-static const float narrow_pdf     = 100.0f; /* 1/sr: a lobe of about 6 degrees */
-static const double met_often     = 8.0;    /* times, in the first samples of a sensor: then a lamp
-                                               is not overlooked */
-static const double share_of_lobe = 0.1;    /* about what a narrow lobe gives back */
+static const float narrow_pdf = 100.0f;  /* 1/sr: a lobe of about 6 degrees */
+static const double met_often = 8.0;     /* times, in the first samples of a sensor: then a lamp
+                                            is not overlooked */
+static const double share_of_lobe = 0.1; /* about what a narrow lobe gives back */
 
 /* What became of one particle: its light where it ended, W; by which way. */
 typedef struct fate {
@@ -40,7 +40,7 @@ typedef struct travellers {
 
 /* What the scattering that was drawn makes of a way. */
 static void note_way(const scene *s, travellers *p, const vscatter *drawn, const vhit *hit,
-                     vint material, vint does, vmask on)
+                     vint made_of, vint does, vmask on)
 {
     vmask single = on & (drawn->pdf == INFINITY) & ~drawn->straight;
     vmask lens   = single & drawn->bent & ((does & DOES_LENS) != 0);
@@ -53,15 +53,14 @@ static void note_way(const scene *s, travellers *p, const vscatter *drawn, const
     image         = vselect_int(lens, vsplat_int(-1), image);
     vmask focused = (single & (image < 0)) & ~(drawn->bent & ~lens);
     vmask narrow  = on & (drawn->pdf < INFINITY);
-    p->made_of =
-        vselect_int((focused | narrow) & (p->made_of < 0), material, p->made_of);
-    p->image   = image;
-    p->focused = p->focused | focused;
-    p->narrow  = p->narrow | narrow;
+    p->made_of    = vselect_int((focused | narrow) & (p->made_of < 0), made_of, p->made_of);
+    p->image      = image;
+    p->focused    = p->focused | focused;
+    p->narrow     = p->narrow | narrow;
 }
 
-/* Where light comes to a surface that scatters it widely it ends; it counts if it goes on from there
- * to another surface. */
+/* Where light comes to a surface that scatters it widely it ends; it counts if it goes on from
+ * there to another surface. */
 static vmask ends_here(const scene *s, const vsurface *at, const vscatter *drawn, vmask wide)
 {
     vmask blocked = { 0 };
@@ -81,8 +80,8 @@ static void step(const scene *s, travellers *p, vuint index, uint32_t depth, fat
     vint does  = vgather_int(s->material_does, vkeep_int(met, at.material));
     vsample4 u = vsobol4(index, vsplat_uint(hash_combine_u32(WAY_SEED, depth)));
     vscatter drawn;
-    vmask goes   = materials_scatter(s->materials, at.material, &shading, u.x, u.y, u.z, met, &drawn);
-    vmask wide   = goes & (drawn.pdf < narrow_pdf);
+    vmask goes = materials_scatter(s->materials, at.material, &shading, u.x, u.y, u.z, met, &drawn);
+    vmask wide = goes & (drawn.pdf < narrow_pdf);
     vmask counts = vany(wide) ? ends_here(s, &at, &drawn, wide) : wide;
     for (int bits = vbits(counts); bits; bits &= bits - 1) {
         int i         = __builtin_ctz((unsigned)bits);
@@ -98,19 +97,19 @@ static void step(const scene *s, travellers *p, vuint index, uint32_t depth, fat
     p->going = on & (vrgb_luminance(p->flux) > 0.0f);
 }
 
-static void follow(const scene *s, const emission *light, uint32_t first, fate *to)
+static void follow(const scene *s, const emission *source, uint32_t first, fate *to)
 {
     vparticle of;
-    vuint index   = vunsigned(vlane_index()) + first;
-    vmask drawn   = emission_draw(light, index, vsplat_uint(WAY_SEED), ALL_LANES, &of);
-    travellers p  = { .ray     = of.ray,
-                      .flux    = of.flux,
-                      .made_of = vsplat_int(-1),
-                      .going   = drawn & (of.source >= 0) & (of.source < s->light_count) };
+    vuint index  = vunsigned(vlane_index()) + first;
+    vmask drawn  = emission_draw(source, index, vsplat_uint(WAY_SEED), ALL_LANES, &of);
+    travellers p = { .ray     = of.ray,
+                     .flux    = of.flux,
+                     .made_of = vsplat_int(-1),
+                     .going   = drawn & (of.source >= 0) & (of.source < s->light_count) };
     for (int i = 0; i < LANES; i++) {
-        int l    = lane(of.source, i);
-        bool is  = vbits(p.going) >> i & 1;
-        to[i]    = (fate){ .made_of = -1, .sun = is && s->light_info[l].sun };
+        int l   = lane(of.source, i);
+        bool is = vbits(p.going) >> i & 1;
+        to[i]   = (fate){ .made_of = -1, .sun = is && s->light_info[l].sun };
         if (is && s->light_info[l].owner) /* its body would stop it */
             p.going = p.going & (vlane_index() != i);
     }
@@ -160,8 +159,8 @@ static double face_of(const light *l)
     return fmax(d.x * d.y, fmax(d.y * d.z, d.z * d.x));
 }
 
-/* m^2 that a light needs, so that samples of a sensor find it by a narrow lobe often enough: as seen
- * from a quarter of the scene's diagonal, against all directions by their cosine. */
+/* m^2 that a light needs, so that samples of a sensor find it by a narrow lobe often enough: as
+ * seen from a quarter of the scene's diagonal, against all directions by their cosine. */
 static double face_needed(const scene *s)
 {
     double d = fmin(0.25 * d3_length(d3_sub(s->high, s->low)), 3.0);
@@ -173,7 +172,7 @@ static bool some_lamps_hide(const scene *s)
     double needed = face_needed(s), glowing = 0.0;
     for (int l = 0; l < s->light_count; l++) {
         light_bounds b = light_bounds_of(s->lights[l]);
-        bool found     = light_has_extent(s->lights[l]) && !b.far && face_of(s->lights[l]) >= needed;
+        bool found = light_has_extent(s->lights[l]) && !b.far && face_of(s->lights[l]) >= needed;
         if (!found && b.peak > 0.0f && !s->light_info[l].sun)
             return true;
     }
@@ -200,13 +199,13 @@ bool scene_find_ways(scene *s, notices *n, lux_error *err)
     bool bends = s->narrow || s->hollow;
     if (!bends || !(s->low.x <= s->high.x) || s->light_count == 0)
         return true;
-    arena a               = { 0 };
-    const emission *light = emission_new(&a, s, err);
-    fate *fates           = light ? arena_array(&a, fate, PARTICLES, err) : NULL;
+    arena a                = { 0 };
+    const emission *source = emission_new(&a, s, err);
+    fate *fates            = source ? arena_array(&a, fate, PARTICLES, err) : NULL;
     if (fates) {
         tally lamps = { .focused_by = -1, .narrow_by = -1 }, suns = lamps;
         for (uint32_t i = 0; i < PARTICLES; i += LANES)
-            follow(s, light, i, fates + i);
+            follow(s, source, i, fates + i);
         for (int i = 0; i < PARTICLES; i++)
             add_fate(fates[i].sun ? &suns : &lamps, &fates[i]);
         s->by_lamps   = ways_of(&lamps);

@@ -39,7 +39,11 @@ static void pass_face(const scene *s, const vray *ray, const vhit *hit, vfloat g
     vsurface at;
     vshading shading;
     scene_shade(s, hit, &ray->direction, vsplat(0.0f), met, &at, &shading);
-    vrgb through   = materials_through(s->materials, at.material, &shading, met);
+    vrgb through = materials_through(s->materials, at.material, &shading, met);
+    if (s->lenses) { /* which bend it elsewhere */
+        vint kind = vgather_int(s->material_does, vkeep_int(met, at.material));
+        through   = vkeep3((kind & DOES_LENS) == 0, through);
+    }
     p->faces.share = vselect3(met, vmul(p->faces.share, through), p->faces.share);
     if (!s->solids)
         return;

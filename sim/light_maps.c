@@ -1,0 +1,63 @@
+/* sim/light_maps.c -- see light_maps.h. */
+#include "sim/light_maps.h"
+
+#include "sim/accuracy.h"
+
+static const double share_of_time = 0.5; /* of what is left, that maps may take */
+
+static map_options options_of(const run_options *o, map_light which, double accuracy)
+{
+    double left = o->deadline - clock_seconds();
+    return (map_options){ .light    = which,
+                          .seed     = o->seed,
+                          .threads  = o->threads,
+                          .accuracy = accuracy,
+                          .deadline = o->deadline < HUGE_VAL
+                                          ? clock_seconds() + share_of_time * fmax(left, 0.0)
+                                          : HUGE_VAL,
+                          .progress = o->progress };
+}
+
+bool light_maps_indirect(arena *a, const scene *s, const run_options *o, double accuracy,
+                         const illumination_map **out, lux_error *err)
+{
+    map_options of  = options_of(o, MAP_INDIRECT, accuracy);
+    lux_error wrong = { 0 };
+    *out            = NULL;
+    if (o->maps) {
+        const char *why = NULL;
+        *out            = illumination_map_read(a, o->maps, s, &of, &why, &wrong);
+        if (*out)
+            return true;
+        if (wrong.text[0]) {
+            *err = wrong;
+            return false;
+        }
+    }
+    *out = illumination_map_new(a, s, &of, err);
+    return *out && (!o->maps || illumination_map_write(o->maps, *out, err));
+}
+
+bool light_maps_make(arena *a, const scene *s, const run_options *o, double accuracy,
+                     const map_sensors *sensors, light_maps *out, lux_error *err)
+{
+    *out = (light_maps){ 0 };
+    if (o->direct_only || !s->reflects)
+        return true;
+    if (scene_focuses(s)) {
+        map_options of = options_of(o, MAP_FOCUSED, accuracy);
+        of.sensors     = sensors;
+        out->focused   = illumination_map_new(a, s, &of, err);
+        if (!out->focused)
+            return false;
+        out->rays += illumination_map_figures(out->focused).rays;
+    }
+    if (o->transport != TRANSPORT_MAPS || o->bounded)
+        return true;
+    out->indirect = o->indirect;
+    if (!out->indirect && !light_maps_indirect(a, s, o, accuracy, &out->indirect, err))
+        return false;
+    if (!o->indirect)
+        out->rays += illumination_map_figures(out->indirect).rays;
+    return true;
+}

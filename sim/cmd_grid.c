@@ -111,6 +111,19 @@ static void print_json(const grid_result *r, bool first)
     json_field("average_half_width_lx", r->average_half_width);
     json_field("worst_half_width_percent", 100.0 * r->worst_half_width);
     json_field("sensors_missed", r->missed);
+    static const char *const classes[] = { [CLASS_DIRECT]    = "direct",
+                                           [CLASS_REFLECTED] = "reflected",
+                                           [CLASS_MIRRORED]  = "mirrored",
+                                           [CLASS_FOCUSED]   = "focused" };
+    for (int i = 0; i < LIGHT_CLASSES; i++) {
+        char key[40];
+        snprintf(key, sizeof key, "average_%s_lx", classes[i]);
+        json_field(key, r->classes[i].average);
+        snprintf(key, sizeof key, "average_%s_half_width_lx", classes[i]);
+        json_field(key, r->classes[i].half_width);
+    }
+    if (r->left_out_lm > 0.0)
+        json_field("left_out_lm", r->left_out_lm);
     if (r->left_out)
         json_field("sensors_left_out", r->left_out);
     if (r->end == RUN_INTERRUPTED)

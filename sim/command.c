@@ -97,6 +97,8 @@ void command_grid_remarks(const grid_result *r, run_end end, int missed, double 
                end != RUN_DONE ? " yet"
                : r->smoothed   ? ", with what maps smooth"
                                : " of all as dimmed (layers are)");
+    if (r->left_out_lm > 0.0)
+        printf("  left out by maps: %.3g lm\n", r->left_out_lm);
     if (left_to_chance)
         printf("  interval not valid: %s\n", left_to_chance);
 }

@@ -107,7 +107,7 @@ static grid_channels lay_out(const grid_run_state *g)
     c.straight_count = g->moments ? g->moments : 1 + g->layers;
     c.met            = c.straight + c.straight_count;
     c.count          = c.met + 1;
-    if (g->o->transport == TRANSPORT_MAPS || scene_focuses(g->s))
+    if (g->o->transport == TRANSPORT_MAPS || scene_focuses(g->s, g->r->asked))
         c.smoothed = c.count++;
     if (g->o->outside)
         c.outside = c.count++;
@@ -474,7 +474,12 @@ bool grid_run(arena *a, const scene *s, const study_grid *grid, const run_option
            make_threads(&g, &scratch, err) && run(a, &g, out, err) && all_finite(s, out, err);
     if (good) {
         summarise(out);
-        out->rays = g.maps.rays;
+        out->rays        = g.maps.rays;
+        out->left_out_lm = g.maps.left_out_lm;
+        if (g.maps.matters && !out->left_to_chance)
+            out->left_to_chance =
+                "some light that maps are to find comes where they have no cells, "
+                "or from glowing pictures";
         for (int t = 0; t < o->threads; t++)
             out->rays += direct_sensor_rays(g.threads[t].direct) + sun_rays(g.threads[t].suns) +
                          path_rays(g.threads[t].paths);

@@ -1,7 +1,20 @@
 /* sim/light_maps.c -- see light_maps.h. */
 #include "sim/light_maps.h"
 
+#include "core/color.h"
 #include "sim/accuracy.h"
+
+/* Light that is left out, W as luminance, of so much in all. */
+static void leave_out(light_maps *m, double watts, double all)
+{
+    m->left_out_lm += LUMENS_PER_WATT * watts;
+    m->matters |= watts > SHARE_THAT_MATTERS * all;
+}
+
+static double luminance_of(vec3 watts) { return (double)rgb_luminance(watts); }
+
+/* Of focused light: it is a part of all. */
+static const double least_accuracy = 0.25;
 
 static const double share_of_time = 0.5; /* of what is left, that maps may take */
 
@@ -44,20 +57,24 @@ bool light_maps_make(arena *a, const scene *s, const run_options *o, double accu
     *out = (light_maps){ 0 };
     if (o->direct_only || !s->reflects)
         return true;
-    if (scene_focuses(s)) {
-        map_options of = options_of(o, MAP_FOCUSED, accuracy);
+    if (scene_focuses(s, accuracy)) {
+        double share   = fmax(s->by_lamps.focused, s->by_suns.focused);
+        map_options of = options_of(o, MAP_FOCUSED, fmin(accuracy / share, least_accuracy));
         of.sensors     = sensors;
         out->focused   = illumination_map_new(a, s, &of, err);
         if (!out->focused)
             return false;
-        out->rays += illumination_map_figures(out->focused).rays;
+        map_figures f = illumination_map_figures(out->focused);
+        leave_out(out, luminance_of(f.unplaced), luminance_of(f.emitted));
+        out->rays += f.rays;
     }
     if (o->transport != TRANSPORT_MAPS || o->bounded)
         return true;
     out->indirect = o->indirect;
     if (!out->indirect && !light_maps_indirect(a, s, o, accuracy, &out->indirect, err))
         return false;
-    if (!o->indirect)
-        out->rays += illumination_map_figures(out->indirect).rays;
+    map_figures f = illumination_map_figures(out->indirect);
+    leave_out(out, s->glow_watts, s->glow_watts + luminance_of(f.emitted));
+    out->rays += o->indirect ? 0 : f.rays;
     return true;
 }

@@ -9,6 +9,8 @@ typedef struct light_maps {
     const illumination_map *indirect; /* NULL: interreflection is followed by paths */
     const illumination_map *focused;  /* NULL: nothing is focused, or nothing goes on */
     int64_t rays;
+    double left_out_lm; /* lm: of light that maps are to find, what they do not hold; */
+    bool matters;       /* enough of all to be seen in results */
 } light_maps;
 
 /* For a run with these options; `accuracy` is what it aims at, sensors (NULL: none) where focused

@@ -184,8 +184,9 @@ typedef struct scene {
     int small_patches; /* lamps that light a patch too small for samples to find reliably */
 } scene;
 
-/* Whether some light is focused that matters: then results want a map of it. */
-bool scene_focuses(const scene *s);
+/* Whether so much light is focused that it matters to results of that accuracy: then they want a
+ * map of it. */
+bool scene_focuses(const scene *s, double accuracy);
 
 /* The light that samples may miss without an interval telling, in words; NULL if there is none. */
 const char *scene_left_to_chance(const scene *s, bool direct_only, bool focused_found);

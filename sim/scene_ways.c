@@ -185,7 +185,7 @@ static void tell_ways(scene *s, const tally *lamps, const tally *suns, notices *
 {
     static const char round[]  = "by way of round mirrors or solids of glass";
     static const char narrow[] = "by way of narrow lobes";
-    static const char map[]    = "it is found by a map of particles";
+    static const char map[]    = "where that matters it is found by particles";
     static const char lost[]   = "it is found rarely, intervals are not valid";
     tell(s, n, "lamps", s->by_lamps.focused, round, lamps->focused_by, map);
     tell(s, n, "suns", s->by_suns.focused, round, suns->focused_by, map);
@@ -217,7 +217,8 @@ bool scene_find_ways(scene *s, notices *n, lux_error *err)
     return fates != NULL;
 }
 
-bool scene_focuses(const scene *s)
+bool scene_focuses(const scene *s, double accuracy)
 {
-    return s->by_lamps.focused > SHARE_THAT_MATTERS || s->by_suns.focused > SHARE_THAT_MATTERS;
+    double least = fmax(SHARE_THAT_MATTERS, 0.1 * accuracy);
+    return s->by_lamps.focused > least || s->by_suns.focused > least;
 }

@@ -460,7 +460,6 @@ bool grid_run(arena *a, const scene *s, const study_grid *grid, const run_option
                          .seed    = seed };
     if (g.moments || splits(&g)) /* maps tell of all light together */
         own.transport = TRANSPORT_PATH;
-    g.channels = lay_out(&g);
     for (int i = 0; i < s->sun_count; i++)
         g.disks |= light_has_extent(s->lights[scene_lamp_count(s) + i]);
 
@@ -470,7 +469,8 @@ bool grid_run(arena *a, const scene *s, const study_grid *grid, const run_option
                                               : GRID_DEFAULT_PERCENT / 100.0;
     out->left_to_chance =
         scene_left_to_chance(s, o->direct_only, !quantity_is_round(grid->quantity));
-    good = good && make_results(a, &g, out, err) && make_known(&scratch, &g, err) &&
+    g.channels = lay_out(&g);
+    good       = good && make_results(a, &g, out, err) && make_known(&scratch, &g, err) &&
            make_threads(&g, &scratch, err) && run(a, &g, out, err) && all_finite(s, out, err);
     if (good) {
         summarise(out);

@@ -12,8 +12,8 @@
 
 enum { MOST_FOUND = 512 /* planes that are told apart */, MOST_MATERIALS = 1 << 20 };
 
-static const double facet_share = 0.01;  /* of a material's mirrors: less is a facet */
-static const float least_share  = 1e-3f; /* of light, that a chain gives back */
+static const double facet_share = 0.03;  /* of a material's mirrors: less is a facet */
+static const float least_share  = 0.01f; /* of light, that a chain gives back */
 static const double same_plane  = 1e-4;  /* m */
 
 /* A mirror triangle. */
@@ -195,7 +195,7 @@ static int keep_planes(search *w, mirror_plane *to)
         for (int k = 0; k < w->plane_count; k++)
             if (!taken[k] &&
                 w->planes[k].area > facet_share * w->area_of_material[w->planes[k].material] &&
-                w->planes[k].share > (double)least_share * w->planes[k].area &&
+                w->planes[k].share > 0.001 * w->planes[k].area &&
                 (best < 0 || w->planes[k].share > w->planes[best].share))
                 best = k;
         if (best < 0)

@@ -4,7 +4,7 @@
 #include "core/color.h"
 #include "sim/direct.h"
 
-enum { FEW_WAYS = 1024 /* lamps by images: so many are weighed one by one */ };
+enum { FEW_WAYS = 128 /* lamps by images: so many are weighed one by one */ };
 
 /* What an image is worth by whose mirrors a lamp's middle is not seen: lamps with extent may be in
  * part; of a point only rounding is at stake. */

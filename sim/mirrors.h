@@ -48,7 +48,7 @@ typedef struct mirror_image {
     vec3 move;      /* m */
 } mirror_image;
 
-enum { MOST_MIRROR_PLANES = 64, MOST_MIRROR_IMAGES = 256 };
+enum { MOST_MIRROR_PLANES = 64, MOST_MIRROR_IMAGES = 128 };
 
 typedef struct mirrors {
     int plane_count, image_count; /* images: the empty chain included */

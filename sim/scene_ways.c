@@ -26,7 +26,7 @@ static const double share_of_lobe = 0.1; /* about what a narrow lobe gives back 
 /* What became of one particle: its light where it ended, W; by which way. */
 typedef struct fate {
     float light;
-    bool sun, focused, narrow;
+    bool sun, focused, narrow; /* focused onto what is not matt is found as narrow lobes are */
     int32_t made_of; /* what first sent it on so; -1 */
 } fate;
 
@@ -83,11 +83,13 @@ static void step(const scene *s, travellers *p, vuint index, uint32_t depth, fat
     vmask goes = materials_scatter(s->materials, at.material, &shading, u.x, u.y, u.z, met, &drawn);
     vmask wide = goes & (drawn.pdf < narrow_pdf);
     vmask counts = vany(wide) ? ends_here(s, &at, &drawn, wide) : wide;
+    vmask mapped = (does & (DOES_NARROW | DOES_AROUND | DOES_HOLLOW)) == 0;
     for (int bits = vbits(counts); bits; bits &= bits - 1) {
         int i         = __builtin_ctz((unsigned)bits);
         to[i].light   = lane(vrgb_luminance(p->flux), i);
-        to[i].focused = vbits(p->focused) >> i & 1;
-        to[i].narrow  = vbits(p->narrow) >> i & 1;
+        bool focused  = vbits(p->focused) >> i & 1;
+        to[i].focused = focused && (vbits(mapped) >> i & 1);
+        to[i].narrow  = (vbits(p->narrow) >> i & 1) || (focused && !to[i].focused);
         to[i].made_of = lane(p->made_of, i);
     }
     vmask on = goes & ~wide;

@@ -176,9 +176,9 @@ static void begin(map_tracer *t, uint32_t first, int count)
         vmask active = (vlane_index() + k * LANES) < count;
         vparticle p;
         vmask drawn = emission_draw(t->job->light, index, vsplat_uint(t->seed), active, &p);
-        if (t->job->kind == MAP_FOCUSED) /* of glowing surfaces and skies paths find it */
+        if (t->job->kind == MAP_FOCUSED) /* what shines else, rays that meet glass find */
             drawn = drawn & (p.source >= 0) & (p.source < t->job->s->light_count);
-        p.flux      = vscale(p.flux, maintained(t->job->s, p.source, drawn));
+        p.flux = vscale(p.flux, maintained(t->job->s, p.source, drawn));
         vstore_int(t->index + k * LANES, vsigned(index));
         set_out(t, k, &p);
         for (int bits = vbits(drawn); bits; bits &= bits - 1) {

@@ -196,10 +196,10 @@ static void note_scattered(path_tracer *t, int k, const vscatter *next)
     vmask matt  = (t->does[k] & (DOES_NARROW | DOES_AROUND | DOES_HOLLOW)) == 0;
     vint glossy = vselect_int(matt, vsplat_int(0), vsplat_int(GLOSSY));
     vint wide   = vselect_int(next->pdf < INFINITY, WIDE | glossy, vsplat_int(0));
-    vint single = vselect_int(next->pdf == INFINITY, vsplat_int(BENT | FOCUSED | GLOSSY),
-                              vsplat_int(0));
-    vint kept   = before & (WIDE | OUTDOORS | NOWHERE | ALL_ROUND | single);
-    vint after  = kept | wide | around | SCATTERED;
+    vint single =
+        vselect_int(next->pdf == INFINITY, vsplat_int(BENT | FOCUSED | GLOSSY), vsplat_int(0));
+    vint kept  = before & (WIDE | OUTDOORS | NOWHERE | ALL_ROUND | single);
+    vint after = kept | wide | around | SCATTERED;
     vstore_int(t->state + k * LANES, vselect_int(next->straight, before | PASSED, after));
     if (t->fields < FIELDS)
         return;

@@ -10,6 +10,8 @@
  *              |  / \        roof to the sky.
  *     ---------+-/---*---
  *              focus
+ *
+ * Focused light counts in any case: sensors may stand in it.
  */
 #include "core/color.h"
 #include "sim/emission.h"
@@ -27,7 +29,7 @@ static const double share_of_lobe = 0.1; /* about what a narrow lobe gives back 
 typedef struct fate {
     float light;
     bool sun, focused, narrow; /* focused onto what is not matt is found as narrow lobes are */
-    int32_t made_of; /* what first sent it on so; -1 */
+    int32_t made_of;           /* what first sent it on so; -1 */
 } fate;
 
 /* A packet of particles on its way. */
@@ -82,7 +84,10 @@ static void step(const scene *s, travellers *p, vuint index, uint32_t depth, fat
     vscatter drawn;
     vmask goes = materials_scatter(s->materials, at.material, &shading, u.x, u.y, u.z, met, &drawn);
     vmask wide = goes & (drawn.pdf < narrow_pdf);
-    vmask counts = vany(wide) ? ends_here(s, &at, &drawn, wide) : wide;
+    vmask others = wide & ~p->focused;
+    vmask counts = p->focused & met & (wide | ~goes);
+    if (vany(others))
+        counts = counts | ends_here(s, &at, &drawn, others);
     vmask mapped = (does & (DOES_NARROW | DOES_AROUND | DOES_HOLLOW)) == 0;
     for (int bits = vbits(counts); bits; bits &= bits - 1) {
         int i         = __builtin_ctz((unsigned)bits);

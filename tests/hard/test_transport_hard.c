@@ -138,7 +138,8 @@ TEST(mirrors_a_millimetre_apart_show_a_row_of_gaps)
         quad q = square_to(2, above, (double[]){ k * gap, -0.5 }, (double[]){ (k + 1) * gap, 0.5 });
         want += 1000.0 * pow(0.9, abs(k)) * polygon_lux(q.corner, 4, p.at, p.normal);
     }
-    assert_lux("1 mm", text_of(&l.a, "scene: [sides.gltf, glow.gltf]\n%s", mirror_wall), &p, 1, &want);
+    assert_lux("1 mm", text_of(&l.a, "scene: [sides.gltf, glow.gltf]\n%s", mirror_wall), &p, 1,
+               &want);
 }
 
 /* ---- panes in one place ---------------------------------------------------------------------- */

@@ -27,10 +27,7 @@ static inline void maps_agree_with_paths(const char *file, const char *variant)
     int count     = 0;
     for (int g = 0; g < from->grid_count; g++) {
         grid_result maps, paths;
-        run_options o = { .accuracy  = 0.02,
-                          .seed      = 1,
-                          .threads   = 2,
-                          .transport = TRANSPORT_MAPS };
+        run_options o = { .accuracy = 0.02, .seed = 1, .threads = 2, .transport = TRANSPORT_MAPS };
         grid_of_scene(&a, s, g, &o, &maps);
         o.accuracy  = 0.01;
         o.seed      = 2;

@@ -331,13 +331,19 @@ static double worst_ratio(const run_state *s, int item)
     return isnan(worst) ? HUGE_VAL : worst;
 }
 
-/* Whether more samples may make the item good: what is left out of them alone does not spoil it. */
+/* Whether more samples may make the item good: what is left out of them alone does not spoil it,
+ * nor what stays as it is, which they come close to slowly. */
 static bool can_be_good(const run_state *s, int item)
 {
-    bool can = true;
-    for (int q = first_held(s); q < s->judged && s->d->bound; q++)
-        can = can && s->d->bound[at(s, q, item)] <=
-                         share_of(s, q) * s->d->accuracy * against_of(s, q, item);
+    const double most_fixed = 0.9; /* then the rest of the square is a fifth */
+    const accuracy_desc *d  = s->d;
+    bool can                = true;
+    for (int q = first_held(s); q < s->judged; q++) {
+        double asked = share_of(s, q) * d->accuracy * against_of(s, q, item);
+        double bound = d->bound ? d->bound[at(s, q, item)] : 0.0;
+        double fixed = d->fixed ? d->fixed[at(s, q, item)] : 0.0;
+        can          = can && bound <= asked && fixed <= most_fixed * (asked - bound);
+    }
     return can;
 }
 

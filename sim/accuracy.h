@@ -69,6 +69,8 @@ typedef struct accuracy_desc {
     bool apart; /* of several: each has a say of its own, against a floor of its own */
     const double *exact; /* what is known of those besides: judged * items; NULL: 0 */
     const double *bound; /* how far off the rest may be at most, >= 0: judged * items; NULL: 0 */
+    const double *fixed; /* half widths that stay however many samples there are, as all of a
+                            scramble share what makes them: judged * items; NULL: 0 */
     double accuracy;     /* > 0, relative */
     double needed;       /* share of the items that must be done, (0, 1] */
     floor_kind floor;

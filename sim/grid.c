@@ -25,33 +25,6 @@ static bool make_bundle(const grid_run_state *g, arena *a, path_bundle *b, lux_e
     return c->electric < 0 || (b->daylight = arena_new(a, path_sums, err));
 }
 
-static const double square_share = 0.25;  /* of the way from sensor to sensor */
-static const float square_side   = 0.05f; /* m, at most: of the squares where focused light is
-                                             looked for */
-
-static float side_of_squares(const study_grid *grid)
-{
-    double u, v;
-    if (grid->points)
-        return square_side;
-    study_grid_counts(grid, &u, &v);
-    double step = fmin(d3_length(grid->u) / u, d3_length(grid->v) / v);
-    return fminf((float)(square_share * step), square_side);
-}
-
-static bool make_maps(grid_run_state *g, arena *a, lux_error *err)
-{
-    size_t n      = (size_t)g->r->sensor_count;
-    vec3 *at      = arena_array(a, vec3, n, err);
-    vec3 *normal  = at ? arena_array(a, vec3, n, err) : NULL;
-    map_sensors m = { (int)n, at, normal, side_of_squares(g->r->grid) };
-    for (size_t k = 0; normal && k < n; k++) {
-        at[k]     = scene_place(g->s, g->r->sensors[k].at);
-        normal[k] = d3_to_float(g->r->sensors[k].normal);
-    }
-    return normal && light_maps_make(a, g->s, g->o, g->r->asked, &m, &g->maps, err);
-}
-
 static bool make_threads(grid_run_state *g, arena *a, lux_error *err)
 {
     bool in_room = true;
@@ -61,7 +34,7 @@ static bool make_threads(grid_run_state *g, arena *a, lux_error *err)
     if (!g->o->direct_only &&
         !sun_patches_new(a, g->s, g->seed, g->r->asked, g->o->threads, &patches, err))
         return false;
-    if (!make_maps(g, a, err))
+    if (!grid_make_maps(g, a, err))
         return false;
     sensor_ask ask = { g->r->grid->quantity, g->r->asked, in_room, g->seed };
     size_t layers  = (size_t)g->layers + 1;
@@ -337,6 +310,7 @@ static bool sample_rest(arena *a, grid_run_state *g, grid_result *r, lux_error *
                         .apart         = g->moments > 0,
                         .exact         = g->known,
                         .bound         = g->bound,
+                        .fixed         = g->fixed,
                         .accuracy      = (r->asked - g->o->bound) * (1.0 - room_for_smoothing(g)),
                         .needed        = 1.0,
                         .floor         = FLOOR_MEAN,

@@ -50,6 +50,7 @@ typedef struct grid_run_state {
     int layers;            /* groups, if the scene is layered; else 0 */
     int moments;           /* of a series; else 0 */
     double *known, *bound; /* lx: of each layer, or of all; [layer * sensors + sensor] */
+    double *fixed;         /* lx: half widths that are of maps alone, in the same order; NULL */
     double *sun_known;     /* lx: of each sun, [sun * sensors + sensor]; NAN: samples add nothing */
     double *sun_share;     /* what of it is seen */
     light_maps maps;
@@ -59,6 +60,9 @@ typedef struct grid_run_state {
     atomic_bool lamps_left; /* some lamps take samples */
     uint32_t seed;          /* of this grid */
 } grid_run_state;
+
+/* Maps of the run, and g->fixed (grid_maps.c). */
+bool grid_make_maps(grid_run_state *g, arena *a, lux_error *err);
 
 /* Of parallel_for(): sensors item * GRID_CHUNK and so on, whose known light is summed. */
 enum { GRID_CHUNK = 64 };

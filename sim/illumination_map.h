@@ -26,11 +26,13 @@ typedef enum map_light {
     MAP_FOCUSED,  /* of that only what has met no matt surface before: CLASS_FOCUSED */
 } map_light;
 
-/* Places in the air at which focused light is to be known as well: a small square about each. */
+/* Places in the air at which focused light is to be known as well: a small square about each, or of
+ * cylinders two upright ones. */
 typedef struct map_sensors {
     int count;
     const vec3 *at, *normal; /* m, in the scene's frame; unit */
     float side;              /* m, of the squares */
+    study_quantity quantity; /* that they measure */
 } map_sensors;
 
 typedef struct map_options {

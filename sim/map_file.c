@@ -168,6 +168,7 @@ static uint64_t print_of_run(const map_options *o)
     if (!o->sensors || o->light != MAP_FOCUSED)
         return h;
     h = fnv(h, &o->sensors->side, sizeof o->sensors->side);
+    h = fnv(h, &o->sensors->quantity, sizeof o->sensors->quantity);
     for (int i = 0; i < o->sensors->count; i++) {
         h = fnv(h, &o->sensors->at[i], sizeof *o->sensors->at);
         h = fnv(h, &o->sensors->normal[i], sizeof *o->sensors->normal);

@@ -1,19 +1,38 @@
 /* sim/map_sensors.c -- see map_parts.h: squares in the air that particles pass through.
  *
  * Each sensor has a square of twice the area asked for, of two triangles (0, 1, 2) and (0, 2, 3);
- * the square asked for lies in its middle.
+ * the square asked for lies in its middle. Cylinders have two, that face along x and y: light of
+ * direction w passes a share |w_x| and |w_y| of their areas, and of each counts by
+ *
+ *     response(w) |w_k| / (w_x^2 + w_y^2)        which together make response(w)
  */
 #include "sim/map_parts.h"
+#include "sim/sensor.h"
 
 enum { AT_ONCE = 16 }; /* squares that a ray meets */
 
 struct map_watch {
     const world *squares;
+    const map_sensors *of;
 };
+
+/* Squares of a sensor. */
+static uint32_t squares_each(const map_sensors *m)
+{
+    return quantity_is_round(m->quantity) ? 2 : 1;
+}
+
+static vec3 facing(const map_sensors *m, uint32_t square)
+{
+    if (squares_each(m) == 1)
+        return m->normal[square];
+    return square & 1 ? (vec3){ 0, 1, 0 } : (vec3){ 1, 0, 0 };
+}
 
 const map_watch *map_watch_new(arena *a, const map_sensors *m, lux_error *err)
 {
-    size_t n          = (size_t)m->count;
+    uint32_t each     = squares_each(m);
+    size_t n          = each * (size_t)m->count;
     map_watch *w      = arena_new(a, map_watch, err);
     arena scratch     = { 0 };
     vec3 *places      = w ? arena_array(&scratch, vec3, 4 * n, err) : NULL;
@@ -21,8 +40,8 @@ const map_watch *map_watch_new(arena *a, const map_sensors *m, lux_error *err)
     float half        = 0.5f * m->side * sqrtf(2.0f);
     for (uint32_t i = 0; corners && i < n; i++) {
         static const uint32_t around[6] = { 0, 1, 2, 0, 2, 3 };
-        vec3 u, v, p = m->at[i];
-        v3_frame(m->normal[i], &u, &v);
+        vec3 u, v, p = m->at[i / each], normal = facing(m, i);
+        v3_frame(normal, &u, &v);
         for (uint32_t c = 0; c < 4; c++) {
             float s = c == 1 || c == 2 ? half : -half, t = c >= 2 ? half : -half;
             places[4 * i + c] =
@@ -32,6 +51,7 @@ const map_watch *map_watch_new(arena *a, const map_sensors *m, lux_error *err)
             corners[6 * i + c] = 4 * i + around[c];
     }
     if (corners) {
+        w->of               = m;
         mesh all            = { .positions      = places,
                                 .corners        = corners,
                                 .position_count = (uint32_t)(4 * n),
@@ -66,6 +86,8 @@ static bool is_inside(int32_t triangle, float u, float v)
 }
 
 typedef struct passing {
+    const map_watch *watch;
+    const vvec3 *way;
     const vhit *hits;
     const vrgb *flux;
     vint group;
@@ -74,26 +96,44 @@ typedef struct passing {
     map_list *out;
 } passing;
 
+/* By which light that passes a square of a cylinder counts. */
+static vfloat weight_of(const map_sensors *m, uint32_t square, const vvec3 *way)
+{
+    vvec3 wi     = vneg(*way);
+    vvec3 n      = vspread(m->normal[square / 2]);
+    vfloat level = wi.x * wi.x + wi.y * wi.y;
+    vfloat along = vabs(square & 1 ? wi.y : wi.x);
+    vfloat share = vsensor_response(m->quantity, &n, &wi) * along / level;
+    return vkeep(level > 0.0f, share);
+}
+
 static void take(const passing *p, int k, int i)
 {
-    const vhit *hit  = &p->hits[k];
-    int32_t triangle = lane(hit->triangle, i);
-    int32_t bin      = p->first_bin + 2 * (triangle / 2);
-    vec3 flux        = { lane(p->flux->x, i), lane(p->flux->y, i), lane(p->flux->z, i) };
+    const map_sensors *m = p->watch->of;
+    const vhit *hit      = &p->hits[k];
+    int32_t triangle     = lane(hit->triangle, i);
+    uint32_t square = (uint32_t)triangle / 2, each = squares_each(m);
+    int32_t bin = p->first_bin + 2 * (int32_t)(square / each);
+    vrgb all    = *p->flux;
+    if (each > 1)
+        all = vscale(all, weight_of(m, square, p->way));
+    vec3 flux = { lane(all.x, i), lane(all.y, i), lane(all.z, i) };
     add(p->out, bin + 1, lane(p->group, i), lane(p->dimming, i), flux);
     if (is_inside(triangle, lane(hit->u, i), lane(hit->v, i)))
         add(p->out, bin, lane(p->group, i), lane(p->dimming, i), flux);
 }
 
 /* One lane after the other, so that deposits come in the same order at every width. */
-static void take_all(const map_watch *w, const passing *p, const vvec3 *way, vmask active)
+static void take_all(const passing *p, vmask active)
 {
+    const map_watch *w = p->watch;
     int lit[AT_ONCE];
     for (int k = 0; k < AT_ONCE; k++) {
         vsurface at;
         vmask met = active & (p->hits[k].instance >= 0);
         world_surface(w->squares, &p->hits[k], met, &at);
-        lit[k] = vbits(met & (vdot(at.normal, *way) < 0.0f));
+        vmask toward = squares_each(w->of) > 1 ? met : vdot(at.normal, *p->way) < 0.0f;
+        lit[k]       = vbits(met & toward);
     }
     for (int i = 0; i < LANES; i++)
         for (int k = 0; k < AT_ONCE; k++)
@@ -108,9 +148,9 @@ void map_watch_pass(const map_watch *w, const vray *ray, vmask active, const vrg
     while (vany(active)) {
         vhit hits[AT_ONCE];
         bool all  = world_every_hit(w->squares, &rest, &active, 1, AT_ONCE, hits);
-        passing p = { hits, flux, group, dimming, first_bin, out };
+        passing p = { w, &ray->direction, hits, flux, group, dimming, first_bin, out };
         if (vany(active & (hits[0].instance >= 0)))
-            take_all(w, &p, &ray->direction, active);
+            take_all(&p, active);
         if (all)
             return;
         /* Those that have met so many go on from the last */

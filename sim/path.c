@@ -173,7 +173,8 @@ static void leave_base(path_tracer *t, int k, const vscatter *next)
                   next->pdf);
 }
 
-/* What maps find of lamps that the path meets from here on by single directions alone. */
+/* What maps find of lamps that the path meets from here on by single directions alone, as seen from
+ * matt surfaces. */
 static void leave_to_maps(path_tracer *t, int k, const vscatter *next)
 {
     vmask single = t->active[k] & ~next->straight & (next->pdf == INFINITY);
@@ -181,7 +182,8 @@ static void leave_to_maps(path_tracer *t, int k, const vscatter *next)
     vmask images = (vmask){ 0 };
     if (t->s->mirror_images)
         images = images_of(t, k) > 0;
-    vmask focused = single & ~plate & ~images & state_has(t, k, WIDE);
+    vmask mapped  = state_has(t, k, WIDE) & ~state_has(t, k, GLOSSY);
+    vmask focused = single & ~plate & ~images & mapped;
     or_state(t, k, focused, FOCUSED);
     vmask skip = t->active[k] & state_has(t, k, FOCUSED);
     store(t, LAMP_PDF, k, vselect(skip, vsplat(ALREADY), load(t, LAMP_PDF, k)));
@@ -191,10 +193,13 @@ static void note_scattered(path_tracer *t, int k, const vscatter *next)
 {
     vint before = vload_int(t->state + k * LANES);
     vint around = vselect_int(t->around[k], vsplat_int(AROUND), vsplat_int(0));
-    vint wide   = vselect_int(next->pdf < INFINITY, vsplat_int(WIDE), vsplat_int(0));
-    vint single = vselect_int(next->pdf == INFINITY, vsplat_int(BENT | FOCUSED), vsplat_int(0));
-    vint kept   = before & (WIDE | OUTDOORS | NOWHERE | ALL_ROUND | single);
-    vint after  = kept | wide | around | SCATTERED;
+    vmask matt  = (t->does[k] & (DOES_NARROW | DOES_AROUND | DOES_HOLLOW)) == 0;
+    vint glossy = vselect_int(matt, vsplat_int(0), vsplat_int(GLOSSY));
+    vint wide   = vselect_int(next->pdf < INFINITY, WIDE | glossy, vsplat_int(0));
+    vint single =
+        vselect_int(next->pdf == INFINITY, vsplat_int(BENT | FOCUSED | GLOSSY), vsplat_int(0));
+    vint kept  = before & (WIDE | OUTDOORS | NOWHERE | ALL_ROUND | single);
+    vint after = kept | wide | around | SCATTERED;
     vstore_int(t->state + k * LANES, vselect_int(next->straight, before | PASSED, after));
     if (t->fields < FIELDS)
         return;

@@ -15,7 +15,8 @@
 
 enum { SELDOM = 4 /* places, of which one asks for faint mirrors */, PASSES = 8 };
 
-static const float faint = 0.5f; /* the largest share of a chain, below which they are */
+static const float rounding = 0x1p-16f; /* of a bent way's length, and where it has been bent */
+static const float faint    = 0.5f;     /* the largest share of a chain, below which they are */
 
 /* The bent ways of some packets. */
 typedef struct bent_ways {
@@ -162,19 +163,24 @@ static int64_t follow_mirrors(const path_tracer *t, int n, int most, bent_ways *
     return count;
 }
 
-/* From the last mirror to the light. */
+/* From the last mirror to the light; to before a surface that glows, as closely as a bent way is
+ * known. */
 static void arrive(path_tracer *t, int first, int n, bent_ways *w)
 {
     const scene *s = t->s;
     for (int i = 0; i < n; i++) {
         int k       = first + i;
         t->asked[k] = w->arrived[i];
-        t->rays[k]  = direct_shadow_ray(&w->last[i], &w->rays[i].direction, w->left[i]);
+        vmask glows = t->lights[k].light >= s->light_count;
+        vvec3 bend  = w->last[i].position;
+        vfloat size = t->lights[k].dist + vmax(vabs(bend.x), vmax(vabs(bend.y), vabs(bend.z)));
+        vfloat left = w->left[i] - vkeep(glows, size * rounding);
+        t->rays[k]  = direct_shadow_ray(&w->last[i], &w->rays[i].direction, left);
         vint owner  = vsplat_int(0);
-        vmask left  = s->owners ? w->arrived[i] : (vmask){ 0 };
-        while (vany(left)) {
+        vmask owned = s->owners ? w->arrived[i] : (vmask){ 0 };
+        while (vany(owned)) {
             int l;
-            vmask same = vtake_same(t->lights[k].light, &left, &l);
+            vmask same = vtake_same(t->lights[k].light, &owned, &l);
             if (l < s->light_count)
                 owner = vselect_int(same, vsplat_int(s->light_info[l].owner), owner);
         }

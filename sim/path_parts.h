@@ -48,6 +48,7 @@ enum {
     ALL_ROUND = 64,  /* at its base light from below the horizon counted */
     BENT      = 128, /* it has entered a plate of glass, which shadow rays have passed straight */
     FOCUSED   = 256, /* it has met what focuses: lamps that it meets are for maps */
+    GLOSSY    = 512, /* a direction of it was last drawn from many where no map is asked */
 };
 
 struct path_tracer {

@@ -10,6 +10,8 @@
  *              |  / \        roof to the sky.
  *     ---------+-/---*---
  *              focus
+ *
+ * Focused light counts in any case: sensors may stand in it.
  */
 #include "core/color.h"
 #include "sim/emission.h"
@@ -26,8 +28,8 @@ static const double share_of_lobe = 0.1; /* about what a narrow lobe gives back 
 /* What became of one particle: its light where it ended, W; by which way. */
 typedef struct fate {
     float light;
-    bool sun, focused, narrow;
-    int32_t made_of; /* what first sent it on so; -1 */
+    bool sun, focused, narrow; /* focused onto what is not matt is found as narrow lobes are */
+    int32_t made_of;           /* what first sent it on so; -1 */
 } fate;
 
 /* A packet of particles on its way. */
@@ -82,12 +84,17 @@ static void step(const scene *s, travellers *p, vuint index, uint32_t depth, fat
     vscatter drawn;
     vmask goes = materials_scatter(s->materials, at.material, &shading, u.x, u.y, u.z, met, &drawn);
     vmask wide = goes & (drawn.pdf < narrow_pdf);
-    vmask counts = vany(wide) ? ends_here(s, &at, &drawn, wide) : wide;
+    vmask others = wide & ~p->focused;
+    vmask counts = p->focused & met & (wide | ~goes);
+    if (vany(others))
+        counts = counts | ends_here(s, &at, &drawn, others);
+    vmask mapped = (does & (DOES_NARROW | DOES_AROUND | DOES_HOLLOW)) == 0;
     for (int bits = vbits(counts); bits; bits &= bits - 1) {
         int i         = __builtin_ctz((unsigned)bits);
         to[i].light   = lane(vrgb_luminance(p->flux), i);
-        to[i].focused = vbits(p->focused) >> i & 1;
-        to[i].narrow  = vbits(p->narrow) >> i & 1;
+        bool focused  = vbits(p->focused) >> i & 1;
+        to[i].focused = focused && (vbits(mapped) >> i & 1);
+        to[i].narrow  = (vbits(p->narrow) >> i & 1) || (focused && !to[i].focused);
         to[i].made_of = lane(p->made_of, i);
     }
     vmask on = goes & ~wide;

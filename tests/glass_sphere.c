@@ -71,18 +71,18 @@ double glass_sphere_within(double n, double inner, int order, double angle)
     return sum;
 }
 
-double glass_sphere_on_disk(double n, double inner, double distance, double radius)
+double glass_sphere_on_disk(double n, double inner, int order, double distance, double radius)
 {
     double sum = 0.0;
     for (int j = 0; j < STEPS; j++) {
         /* It leaves where the normal makes the angle i to it: at i - turn from the axis, and off
          * the axis by that much less for each metre that it goes */
         ray r       = ray_of(n, inner, j);
-        double turn = 2.0 * (r.i - r.t), out = turn - r.i;
+        double turn = 2.0 * (r.i - r.t) + order * (M_PI - 2.0 * r.t), out = turn - r.i;
         double x = cos(out), y = -sin(out);
         double at = y - (distance - x) * tan(turn);
-        if (turn < 0.5 * M_PI && fabs(at) <= radius)
-            sum += r.weight * leaves(&r, 0);
+        if (cos(turn) > 0.0 && fabs(at) <= radius)
+            sum += r.weight * leaves(&r, order);
     }
     return sum;
 }

@@ -20,8 +20,9 @@ glass_sphere glass_sphere_of(double n, double inner);
  * the beam went (order 0: forward), absorption of `inner` counted. */
 double glass_sphere_within(double n, double inner, int order, double angle);
 
-/* The share of the beam that order 0 brings to a disk of so many radii, square to the axis, so many
- * radii behind the sphere's centre, >= 1; what misses the sphere does not count. */
-double glass_sphere_on_disk(double n, double inner, double distance, double radius);
+/* The share of the beam that `order` reflections within bring to a disk of so many radii, square to
+ * the axis, so many radii behind the sphere's centre, >= 1; what misses the sphere does not count.
+ */
+double glass_sphere_on_disk(double n, double inner, int order, double distance, double radius);
 
 #endif

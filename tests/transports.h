@@ -4,7 +4,7 @@
 
 #include "sim/grid.h"
 
-static const transport transports[] = { TRANSPORT_PATH };
+static const transport transports[] = { TRANSPORT_PATH, TRANSPORT_MAPS };
 enum { TRANSPORTS = sizeof transports / sizeof *transports };
 
 /* Reflections before which no path is ended by chance: results must not depend on it. */

@@ -53,7 +53,7 @@ static void write_mirror(const char *name, int axis, double at, double reach)
     lab_quads(&l, name, &q, 1, "\"name\":\"Mirror\"");
 }
 
-static const char mirrors[] = "materials: [{match: Mirror, mirror: 0.9}]\n";
+static const char mirror_wall[] = "materials: [{match: Mirror, mirror: 0.9}]\n";
 
 /* ---- at the mirror --------------------------------------------------------------------------- */
 
@@ -70,7 +70,7 @@ TEST(a_sensor_on_a_mirror_has_what_falls_on_it)
                text_of(&l.a,
                        "scene: one.gltf\n%slights: [{type: rect, at: [2, 2, 2.5], aim: [0, 0, "
                        "-1], size: [2, 2], luminance: 1000}]",
-                       mirrors),
+                       mirror_wall),
                p, 2, want);
 }
 
@@ -91,7 +91,7 @@ TEST(a_lamp_that_touches_a_mirror_is_as_long_again)
                text_of(&l.a,
                        "scene: one.gltf\n%slights: [{type: rect, at: [1, 2, 2.5], aim: [0, 0, "
                        "-1], size: [2, 2], luminance: 1000}]",
-                       mirrors),
+                       mirror_wall),
                p, 3, want);
 }
 
@@ -118,7 +118,7 @@ TEST(a_lamp_in_the_corner_of_three_mirrors_has_seven_images)
             want[i] += 1000.0 * worth * polygon_lux(c, 4, p[i].at, p[i].normal);
         }
     assert_lux("three mirrors",
-               text_of(&l.a, "scene: [x.gltf, y.gltf, z.gltf, glow.gltf]\n%s", mirrors), p, 2,
+               text_of(&l.a, "scene: [x.gltf, y.gltf, z.gltf, glow.gltf]\n%s", mirror_wall), p, 2,
                want);
 }
 
@@ -138,7 +138,8 @@ TEST(mirrors_a_millimetre_apart_show_a_row_of_gaps)
         quad q = square_to(2, above, (double[]){ k * gap, -0.5 }, (double[]){ (k + 1) * gap, 0.5 });
         want += 1000.0 * pow(0.9, abs(k)) * polygon_lux(q.corner, 4, p.at, p.normal);
     }
-    assert_lux("1 mm", text_of(&l.a, "scene: [sides.gltf, glow.gltf]\n%s", mirrors), &p, 1, &want);
+    assert_lux("1 mm", text_of(&l.a, "scene: [sides.gltf, glow.gltf]\n%s", mirror_wall), &p, 1,
+               &want);
 }
 
 /* ---- panes in one place ---------------------------------------------------------------------- */
@@ -213,7 +214,7 @@ static void mirrored_panel(double f, dvec3 by)
                text_of(&l.a,
                        "scene: [{file: one.gltf, at: [[%.17g, %.17g, 0]]}, {file: glow.gltf, at: "
                        "[[%.17g, %.17g, 0]]}]\n%s",
-                       by.x, by.y, by.x, by.y, mirrors),
+                       by.x, by.y, by.x, by.y, mirror_wall),
                p, 2, want);
 }
 

@@ -94,7 +94,7 @@ static void around_a_body(double rho, const char *looks, const char *made_of, bo
 
 /* Shadow rays pass straight through solids of glass and paths that are bent by them count only from
  * the eye (path.h): sensors beside the block are 4 % off until that light is of CLASS_FOCUSED. */
-enum { SENSORS_SEE_THROUGH_SOLIDS = 0 };
+enum { SENSORS_SEE_THROUGH_SOLIDS = 1 };
 
 TEST(a_block_of_clear_glass_in_a_furnace_changes_nothing)
 {

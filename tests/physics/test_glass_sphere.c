@@ -47,9 +47,9 @@ TEST(no_ray_is_turned_by_less_than_the_rainbow_s)
 TEST(rays_near_the_axis_meet_in_the_focus)
 {
     double all   = glass_sphere_of(1.5, 1.0).leaves[0];
-    double focus = glass_sphere_on_disk(1.5, 1.0, 1.5, 0.005);
+    double focus = glass_sphere_on_disk(1.5, 1.0, 0, 1.5, 0.005);
     assert_true(focus > 0.01 * 0.96 * 0.96 && focus < all);
-    assert_near(glass_sphere_on_disk(1.5, 1.0, 1.5, 1000.0), all, 1e-3); /* some go sideways */
+    assert_near(glass_sphere_on_disk(1.5, 1.0, 0, 1.5, 1000.0), all, 1e-3); /* some go sideways */
 }
 
 /* ---- seen ------------------------------------------------------------------------------------ */

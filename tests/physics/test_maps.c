@@ -124,10 +124,9 @@ TEST(floors_have_the_light_that_paths_find)
         maps += got;
         square += (got / want - 1.0) * (got / want - 1.0) / r.sensor_count;
     }
-           sqrt(square));
-           assert_near(maps, paths, 0.01);
-           assert_true(sqrt(square) < 0.08);
-           lab_close(&l);
+    assert_near(maps, paths, 0.01);
+    assert_true(sqrt(square) < 0.08);
+    lab_close(&l);
 }
 
 /* ---- walls ----------------------------------------------------------------------------------- */

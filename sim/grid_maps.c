@@ -1,0 +1,68 @@
+/* sim/grid_maps.c -- see grid_parts.h: illumination maps that the sensors of a grid ask. */
+#include "core/color.h"
+#include "sim/grid_parts.h"
+
+static const double square_share = 0.25;  /* of the way from sensor to sensor */
+static const float square_side   = 0.05f; /* m, at most: of the squares where focused light is
+                                             looked for */
+static const double student_t = 2.1314;   /* 97.5 %, of SCRAMBLES - 1 degrees of freedom */
+
+static float side_of_squares(const study_grid *grid)
+{
+    double u, v;
+    if (grid->points)
+        return square_side;
+    study_grid_counts(grid, &u, &v);
+    double step = fmin(d3_length(grid->u) / u, d3_length(grid->v) / v);
+    return fminf((float)(square_share * step), square_side);
+}
+
+/* lx, of channel q as accuracy.h judges it: what the map of that number knows at a sensor. */
+static double focused_of(const grid_run_state *g, int q, int sensor, int set)
+{
+    double sum = 0.0;
+    for (int l = g->layers ? 0 : -1; l < g->layers; l++) {
+        bool counts = g->moments ? l == 0 || l == 1 + q : q <= FULL || l == q - LAYERS;
+        if (!counts)
+            continue;
+        vec3 coarse, fine = illumination_map_at_sensor(g->maps.focused, sensor, set, l, &coarse);
+        double dimmed =
+            !g->moments && q == SAMPLED && l >= 0 ? (double)scene_dimming_of_group(g->s, l) : 1.0;
+        sum += dimmed * LUMENS_PER_WATT * (double)rgb_luminance(fine);
+    }
+    return sum;
+}
+
+/* Maps are as they are, one for each scramble: more samples do not tell more of them. */
+static bool note_fixed(grid_run_state *g, arena *a, lux_error *err)
+{
+    size_t n = (size_t)g->r->sensor_count;
+    g->fixed = arena_array(a, double, n *(size_t)g->channels.judged, err);
+    for (size_t k = 0; g->fixed && k < n; k++)
+        for (int q = 0; q < g->channels.judged; q++) {
+            double of[SCRAMBLES], mean = 0.0, square = 0.0;
+            for (int set = 0; set < SCRAMBLES; set++) {
+                of[set] = focused_of(g, q, (int)k, set);
+                mean += of[set] / SCRAMBLES;
+            }
+            for (int set = 0; set < SCRAMBLES; set++)
+                square += (of[set] - mean) * (of[set] - mean);
+            g->fixed[(size_t)q * n + k] = student_t * sqrt(square / (SCRAMBLES - 1) / SCRAMBLES);
+        }
+    return g->fixed != NULL;
+}
+
+bool grid_make_maps(grid_run_state *g, arena *a, lux_error *err)
+{
+    size_t n      = (size_t)g->r->sensor_count;
+    vec3 *at      = arena_array(a, vec3, n, err);
+    vec3 *normal  = at ? arena_array(a, vec3, n, err) : NULL;
+    map_sensors m = { (int)n, at, normal, side_of_squares(g->r->grid), g->r->grid->quantity };
+    for (size_t k = 0; normal && k < n; k++) {
+        at[k]     = scene_place(g->s, g->r->sensors[k].at);
+        normal[k] = d3_to_float(g->r->sensors[k].normal);
+    }
+    if (!normal || !light_maps_make(a, g->s, g->o, g->r->asked, &m, &g->maps, err))
+        return false;
+    return !g->maps.focused || note_fixed(g, a, err);
+}

@@ -242,6 +242,8 @@ static bool begin_totals(const command_context *c, const scene *s, totals *t, lu
 
 static int grid_command(const command_context *c, lux_error *err)
 {
+    if (!command_transport_fits(c, err))
+        return EXIT_INPUT;
     totals t       = { 0 };
     const scene *s = command_planned_scene(c, false, &t.plan, err);
     if (!s)

@@ -27,6 +27,11 @@ static int plan_command(const command_context *c, lux_error *err)
         plan_print_json(&p);
     else if (good)
         plan_print(&p);
+    plan of_views;
+    asked.views = true;
+    if (good && !c->line->json && !views && s->view_count > 0 &&
+        plan_make(all, &asked, &of_views, NULL, err))
+        plan_print_transport(&of_views, "views");
     arena_clear(&of_moments);
     return code;
 }

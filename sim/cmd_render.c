@@ -80,6 +80,8 @@ static int run_view(const command_context *c, const scene *s, int index, totals 
 
 static int render_command(const command_context *c, lux_error *err)
 {
+    if (!command_transport_fits(c, err))
+        return EXIT_INPUT;
     totals all     = { 0 };
     const scene *s = command_planned_scene(c, true, &all.plan, err);
     if (!s)

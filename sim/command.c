@@ -70,6 +70,12 @@ run_options command_run_options(const command_context *c, int left)
                           .progress    = c->progress };
 }
 
+bool command_transport_fits(const command_context *c, lux_error *err)
+{
+    return !c->line->maps || c->line->transport != TRANSPORT_PATH ||
+           failed(err, ERR_ARGUMENT, "--save-maps: with --transport path there are no maps");
+}
+
 bool command_maps(const command_context *c, const scene *s, int runs, run_options *o,
                   const illumination_map **made, lux_error *err)
 {

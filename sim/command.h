@@ -101,6 +101,9 @@ int command_threads(const command_context *c);
  * --time is shared. */
 run_options command_run_options(const command_context *c, int left);
 
+/* Whether --save-maps goes with --transport. False, with *err. */
+bool command_transport_fits(const command_context *c, lux_error *err);
+
 /* Of TRANSPORT_MAPS: the map that several runs share, made (or read from the file of --save-maps)
  * once; it lives as long as the command. False, with *err. */
 bool command_maps(const command_context *c, const scene *s, int runs, run_options *o,

@@ -34,8 +34,6 @@ static bool make_threads(grid_run_state *g, arena *a, lux_error *err)
     if (!g->o->direct_only &&
         !sun_patches_new(a, g->s, g->seed, g->r->asked, g->o->threads, &patches, err))
         return false;
-    if (!grid_make_maps(g, a, err))
-        return false;
     sensor_ask ask = { g->r->grid->quantity, g->r->asked, in_room, g->seed };
     size_t layers  = (size_t)g->layers + 1;
     g->threads     = arena_array(a, thread_scratch, (size_t)g->o->threads, err);
@@ -50,7 +48,6 @@ static bool make_threads(grid_run_state *g, arena *a, lux_error *err)
         if (!w->direct_of_layer || !make_bundle(g, a, &w->bundle, err))
             return false;
         path_use_patches(w->paths, patches);
-        path_use_maps(w->paths, g->maps.indirect, g->maps.focused);
     }
     return g->threads != NULL;
 }
@@ -89,13 +86,14 @@ static grid_channels lay_out(const grid_run_state *g)
     return c;
 }
 
-/* What of the average is of each class. Sensors have samples of their own: their errors are
- * independent. */
+/* What of the average is of each class. Sensors have samples of their own, whose errors are
+ * independent; maps are common to all, and so are their errors. */
 static void take_classes(const grid_run_state *g, const accuracy_result *got, grid_result *r)
 {
     size_t n = (size_t)r->sensor_count;
     for (int c = 0; c < LIGHT_CLASSES; c++) {
         double sum = 0.0, bounds = 0.0, square = 0.0;
+        bool shared = c != CLASS_DIRECT && (g->maps.indirect || g->maps.focused);
         for (size_t k = 0; k < n; k++) {
             if (c == CLASS_DIRECT) {
                 sum += g->known[k];
@@ -105,7 +103,10 @@ static void take_classes(const grid_run_state *g, const accuracy_result *got, gr
                 continue;
             size_t at = (size_t)(g->channels.classes + c) * n + k;
             sum += got->mean[at];
-            square += got->half_width[at] * got->half_width[at];
+            if (shared)
+                bounds += got->half_width[at];
+            else
+                square += got->half_width[at] * got->half_width[at];
         }
         r->classes[c].average    = sum / (double)n;
         r->classes[c].half_width = (bounds + sqrt(square)) / (double)n;
@@ -253,6 +254,15 @@ static void widen_all(const grid_run_state *g, grid_result *r)
         widen(g, r->moments[h].illuminance, r->moments[h].half_width);
 }
 
+/* What of all undimmed light at sensor k is of layer l. */
+static double share_of_layer(const grid_result *r, int l, size_t k)
+{
+    double all = 0.0;
+    for (int i = 0; i < r->layer_count; i++)
+        all += r->layers[i].illuminance[k];
+    return all > 0.0 ? r->layers[l].illuminance[k] / all : 1.0;
+}
+
 static void take_results(const grid_run_state *g, const accuracy_result *got, grid_result *r)
 {
     const grid_channels *c = &g->channels;
@@ -270,6 +280,8 @@ static void take_results(const grid_run_state *g, const accuracy_result *got, gr
         }
         double smoothed = got && c->smoothed >= 0 ? mean_of(g, got, c->smoothed, k) : 0.0;
         r->half_width[k] += STEPS_SMOOTHED * fabs(smoothed);
+        for (int l = 0; l < r->layer_count; l++)
+            r->layers[l].half_width[k] += STEPS_SMOOTHED * fabs(smoothed) * share_of_layer(r, l, k);
         for (int h = 0; h < g->moments; h++)
             r->moments[h].half_width[k] += STEPS_SMOOTHED * fabs(smoothed);
         r->indirect[k]    = fmax(r->illuminance[k] - r->direct[k], 0.0);
@@ -384,7 +396,7 @@ static bool make_results(arena *a, const grid_run_state *g, grid_result *out, lu
     return make_layers(a, g, out, err) && make_moments(a, g, out, err);
 }
 
-static bool run(arena *a, grid_run_state *g, grid_result *out, lux_error *err)
+static bool run(arena *a, arena *scratch, grid_run_state *g, grid_result *out, lux_error *err)
 {
     const scene *s = g->s;
     int chunks     = (out->sensor_count + GRID_CHUNK - 1) / GRID_CHUNK;
@@ -394,6 +406,8 @@ static bool run(arena *a, grid_run_state *g, grid_result *out, lux_error *err)
     if (progress_stopped(g->o->progress))
         return failed(err, ERR_INTERRUPTED, "interrupted before grid %s had its first results",
                       out->grid->name);
+    if (!grid_make_maps(g, scratch, err))
+        return false;
     bool lit      = scene_is_lit(s);
     bool reflects = s->reflects && lit && !g->o->direct_only;
     if (s->glows || s->sky_count > 0 || g->disks || reflects || atomic_load(&g->lamps_left))
@@ -437,15 +451,15 @@ bool grid_run(arena *a, const scene *s, const study_grid *grid, const run_option
     for (int i = 0; i < s->sun_count; i++)
         g.disks |= light_has_extent(s->lights[scene_lamp_count(s) + i]);
 
-    bool good  = grid_sensors(a, s, grid, out, err);
-    out->asked = !isnan(o->accuracy)          ? o->accuracy
-                 : !isnan(s->study->accuracy) ? s->study->accuracy
-                                              : GRID_DEFAULT_PERCENT / 100.0;
-    out->left_to_chance =
-        scene_left_to_chance(s, o->direct_only, !quantity_is_round(grid->quantity));
-    g.channels = lay_out(&g);
-    good       = good && make_results(a, &g, out, err) && make_known(&scratch, &g, err) &&
-           make_threads(&g, &scratch, err) && run(a, &g, out, err) && all_finite(s, out, err);
+    bool good           = grid_sensors(a, s, grid, out, err);
+    out->asked          = !isnan(o->accuracy)          ? o->accuracy
+                          : !isnan(s->study->accuracy) ? s->study->accuracy
+                                                       : GRID_DEFAULT_PERCENT / 100.0;
+    out->left_to_chance = scene_left_to_chance(s, o->direct_only);
+    g.channels          = lay_out(&g);
+    good                = good && make_results(a, &g, out, err) && make_known(&scratch, &g, err) &&
+           make_threads(&g, &scratch, err) && run(a, &scratch, &g, out, err) &&
+           all_finite(s, out, err);
     if (good) {
         summarise(out);
         out->rays        = g.maps.rays;

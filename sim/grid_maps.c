@@ -52,6 +52,47 @@ static bool note_fixed(grid_run_state *g, arena *a, lux_error *err)
     return g->fixed != NULL;
 }
 
+/* By how much a map's noise is too large, at the worst sensor, for what is known of its light. */
+static double too_noisy(const grid_run_state *g)
+{
+    const double share = 0.7; /* of the accuracy: then half of the square is left for the rest */
+    size_t n           = (size_t)g->r->sensor_count;
+    double mean = 0.0, worst = 0.0;
+    for (int pass = 0; pass < 2; pass++)
+        for (size_t k = 0; k < n; k++) {
+            double all = g->known[k];
+            for (int set = 0; set < SCRAMBLES; set++)
+                all += focused_of(g, SAMPLED, (int)k, set) / SCRAMBLES;
+            if (pass == 0)
+                mean += all / (double)n;
+            else
+                worst = fmax(worst, g->fixed[k] / (share * g->r->asked * fmax(all, 0.1 * mean)));
+        }
+    return worst;
+}
+
+/* More particles, as noise falls with the root of their number, until they are enough or too many.
+ */
+static bool grow_focused(grid_run_state *g, arena *a, const map_sensors *m, lux_error *err)
+{
+    const int64_t most   = INT64_C(1) << 26;
+    const double at_once = 16.0; /* times: what is seen with few is not sure */
+    for (;;) {
+        double over     = too_noisy(g);
+        int64_t so_far  = illumination_map_figures(g->maps.focused).particles;
+        double factor   = fmin(1.2 * over * over, at_once);
+        int64_t more    = (int64_t)((double)so_far * factor);
+        double too_late = g->o->deadline - clock_seconds();
+        double seconds  = illumination_map_figures(g->maps.focused).seconds * factor;
+        if (!(over > 1.0) || so_far >= most || seconds > 0.5 * too_late)
+            return true;
+        if (!light_maps_focused(a, g->s, g->o, g->r->asked, m, more < most ? more : most, &g->maps,
+                                err) ||
+            !note_fixed(g, a, err))
+            return false;
+    }
+}
+
 bool grid_make_maps(grid_run_state *g, arena *a, lux_error *err)
 {
     size_t n      = (size_t)g->r->sensor_count;
@@ -64,5 +105,9 @@ bool grid_make_maps(grid_run_state *g, arena *a, lux_error *err)
     }
     if (!normal || !light_maps_make(a, g->s, g->o, g->r->asked, &m, &g->maps, err))
         return false;
-    return !g->maps.focused || note_fixed(g, a, err);
+    if (g->maps.focused && (!note_fixed(g, a, err) || !grow_focused(g, a, &m, err)))
+        return false;
+    for (int t = 0; t < g->o->threads; t++)
+        path_use_maps(g->threads[t].paths, g->maps.indirect, g->maps.focused);
+    return true;
 }

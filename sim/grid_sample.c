@@ -255,6 +255,12 @@ static float focused_at(const grid_run_state *g, thread_scratch *w, int i, const
     return all;
 }
 
+/* Maps tell of suns and lamps together: it counts as that of which there is more. */
+static bool focused_is_electric(const scene *s)
+{
+    return s->by_lamps.focused >= s->by_suns.focused;
+}
+
 static void take_sample(const grid_run_state *g, thread_scratch *w, int i, const sample_id *id,
                         float *values)
 {
@@ -287,8 +293,9 @@ static void take_sample(const grid_run_state *g, thread_scratch *w, int i, const
     if (c->outside >= 0)
         values[c->outside * BUNDLE + i] = lux_of(b->outside, i);
     if (c->electric >= 0)
-        values[c->electric * BUNDLE + i] =
-            lamps_and_paths + reflected + focused - lux_of(b->daylight, i);
+        values[c->electric * BUNDLE + i] = lamps_and_paths + reflected +
+                                           (focused_is_electric(g->s) ? focused : 0.0f) -
+                                           lux_of(b->daylight, i);
 }
 
 void grid_sample(void *context, int thread, const sample_id *ids, int count, float *values)

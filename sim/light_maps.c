@@ -51,23 +51,32 @@ bool light_maps_indirect(arena *a, const scene *s, const run_options *o, double 
     return *out && (!o->maps || illumination_map_write(o->maps, *out, err));
 }
 
+bool light_maps_focused(arena *a, const scene *s, const run_options *o, double accuracy,
+                        const map_sensors *sensors, int64_t particles, light_maps *out,
+                        lux_error *err)
+{
+    double share   = fmax(s->by_lamps.focused, s->by_suns.focused);
+    map_options of = options_of(o, MAP_FOCUSED, fmin(accuracy / share, least_accuracy));
+    of.sensors     = sensors;
+    of.particles   = particles;
+    out->focused   = illumination_map_new(a, s, &of, err);
+    if (!out->focused)
+        return false;
+    map_figures f    = illumination_map_figures(out->focused);
+    out->left_out_lm = 0.0;
+    leave_out(out, luminance_of(f.unplaced), luminance_of(f.emitted));
+    out->rays += f.rays;
+    return true;
+}
+
 bool light_maps_make(arena *a, const scene *s, const run_options *o, double accuracy,
                      const map_sensors *sensors, light_maps *out, lux_error *err)
 {
     *out = (light_maps){ 0 };
     if (o->direct_only || !s->reflects)
         return true;
-    if (scene_focuses(s, accuracy)) {
-        double share   = fmax(s->by_lamps.focused, s->by_suns.focused);
-        map_options of = options_of(o, MAP_FOCUSED, fmin(accuracy / share, least_accuracy));
-        of.sensors     = sensors;
-        out->focused   = illumination_map_new(a, s, &of, err);
-        if (!out->focused)
-            return false;
-        map_figures f = illumination_map_figures(out->focused);
-        leave_out(out, luminance_of(f.unplaced), luminance_of(f.emitted));
-        out->rays += f.rays;
-    }
+    if (scene_focuses(s, accuracy) && !light_maps_focused(a, s, o, accuracy, sensors, 0, out, err))
+        return false;
     if (o->transport != TRANSPORT_MAPS || o->bounded)
         return true;
     out->indirect = o->indirect;

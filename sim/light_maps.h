@@ -18,6 +18,11 @@ typedef struct light_maps {
 bool light_maps_make(arena *a, const scene *s, const run_options *o, double accuracy,
                      const map_sensors *sensors, light_maps *out, lux_error *err);
 
+/* The map of focused light alone, anew, by so many particles. */
+bool light_maps_focused(arena *a, const scene *s, const run_options *o, double accuracy,
+                        const map_sensors *sensors, int64_t particles, light_maps *out,
+                        lux_error *err);
+
 /* The map of interreflected light alone, for several runs (run_options.indirect). */
 bool light_maps_indirect(arena *a, const scene *s, const run_options *o, double accuracy,
                          const illumination_map **out, lux_error *err);

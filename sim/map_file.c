@@ -145,6 +145,7 @@ static bool print_of_lights(const scene *s, uint64_t *print, lux_error *err)
     uint64_t h        = fnv(fnv_start, &s->layered, sizeof s->layered);
     for (int g = 0; g < s->group_count; g++)
         h = fnv_text(h, s->groups[g]);
+    h = fnv(h, &s->study->maintenance, sizeof s->study->maintenance);
     for (int k = 0; e && k < PRINTED_PARTICLES; k += LANES) {
         vparticle p;
         vuint index = vunsigned(vlane_index() + k);

@@ -29,6 +29,17 @@ static vec3 facing(const map_sensors *m, uint32_t square)
     return square & 1 ? (vec3){ 0, 1, 0 } : (vec3){ 1, 0, 0 };
 }
 
+/* A little before the sensor: light that ends on a surface in which it lies has passed there. */
+static vec3 lifted(const map_sensors *m, uint32_t sensor)
+{
+    vec3 p = m->at[sensor];
+    if (squares_each(m) > 1)
+        return p;
+    float off = 1e-3f * m->side + 0x1p-17f * fmaxf(fabsf(p.x), fmaxf(fabsf(p.y), fabsf(p.z)));
+    vec3 n    = v3_scale(m->normal[sensor], off);
+    return (vec3){ p.x + n.x, p.y + n.y, p.z + n.z };
+}
+
 const map_watch *map_watch_new(arena *a, const map_sensors *m, lux_error *err)
 {
     uint32_t each     = squares_each(m);
@@ -40,7 +51,7 @@ const map_watch *map_watch_new(arena *a, const map_sensors *m, lux_error *err)
     float half        = 0.5f * m->side * sqrtf(2.0f);
     for (uint32_t i = 0; corners && i < n; i++) {
         static const uint32_t around[6] = { 0, 1, 2, 0, 2, 3 };
-        vec3 u, v, p = m->at[i / each], normal = facing(m, i);
+        vec3 u, v, p = lifted(m, i / each), normal = facing(m, i);
         v3_frame(normal, &u, &v);
         for (uint32_t c = 0; c < 4; c++) {
             float s = c == 1 || c == 2 ? half : -half, t = c >= 2 ? half : -half;

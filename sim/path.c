@@ -434,10 +434,10 @@ void path_trace(path_tracer *t, path_bundle *b, const path_options *o)
         if (!o->bounce && !s->hollow)
             return;
         draw_numbers(t);
-        if (o->bounce && goes_on(t, 0))
-            ask(t, false);
         if ((t->indirect || t->focused) && o->bounce)
             path_take_maps(t);
+        if (o->bounce && goes_on(t, 0))
+            ask(t, false);
         draw_directions(t);
     }
 }

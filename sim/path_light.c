@@ -92,6 +92,8 @@ vrgb path_worth(const path_tracer *t, int k, const vvec3 *wi, bool beginning, vm
     }
     vrgb f   = materials_reflect(s->materials, t->at[k].material, &t->shading[k], wi, active, pdf);
     vrgb all = vscale(vmul(load3(t, WORTH, k), f), first_of(t, k));
+    if (pdf && t->indirect)
+        *pdf = vkeep(~t->ends[k], *pdf);
     if (s->smooth || s->textured)
         all = vkeep3(on_one_side(&t->shading[k], wi), all);
     return vkeep3(active, all);
@@ -304,6 +306,18 @@ void path_add_lamps_met(path_tracer *t)
     }
 }
 
+static vmask is_mirror_alone(const path_tracer *t, int k)
+{
+    vmask only = t->active[k] & ((t->does[k] & (DOES_ASK | DOES_HOLLOW)) == 0);
+    vint plane = vsplat_int(-1);
+    int i      = k * LANES;
+    vhit hit   = { .instance = vkeep_int(only, vload_int(t->instance + i)),
+                   .triangle = vkeep_int(only, vload_int(t->triangle + i)) };
+    if (vany(only))
+        plane = mirrors_plane(t->s->mirror_images, &hit, only);
+    return only & (plane >= 0);
+}
+
 /* Which paths see something that could give light on. */
 void path_note_met(path_tracer *t)
 {
@@ -312,7 +326,9 @@ void path_note_met(path_tracer *t)
         vfloat back = vrgb_luminance(materials_reflectance(t->s->materials, which, t->active[k]));
         vmask gives = t->active[k] & (back > 0.0f);
         if (t->s->narrow || t->s->hollow)
-            gives = t->active[k];
+            gives = gives | (t->active[k] & ((t->does[k] & (DOES_NARROW | DOES_HOLLOW)) != 0));
+        if (t->s->mirror_images) /* what images give by a plane mirror is all that it gives */
+            gives = gives & ~is_mirror_alone(t, k);
         for (int bits = vbits(gives); bits; bits &= bits - 1)
             t->b->met[t->id[k * LANES + __builtin_ctz((unsigned)bits)]] = 1.0f;
     }

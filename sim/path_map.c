@@ -1,7 +1,8 @@
 /* sim/path_map.c -- illumination maps where paths come to matt surfaces (illumination_map.h).
  *
  * A path that has gone off in a direction drawn from many ends where a map knows what comes next:
- * the light that has been reflected before, all of it. Focused light, which no path finds, is added
+ * the light that has been reflected before, all of it. Lights are asked there, too, and count in
+ * full, as no ray goes on that could meet them. Focused light, which no path finds, is added
  * wherever it lies, and the path goes on.
  */
 #include "core/color.h"
@@ -86,5 +87,6 @@ void path_take_maps(path_tracer *t)
         if (t->focused && vany(lanes & ~ended))
             look(t, t->focused, k, lanes & ~ended);
         t->active[k] = t->active[k] & ~ended;
+        t->ends[k]   = ended;
     }
 }

@@ -80,6 +80,7 @@ struct path_tracer {
     vsurface at[PACKETS];
     vshading shading[PACKETS];
     vmask active[PACKETS], asks[PACKETS], around[PACKETS];
+    vmask ends[PACKETS]; /* here by a map: what is asked for has no other way of being found */
     vint does[PACKETS];
     vsample4 sample[PACKETS], light_sample[PACKETS];
     direct_pick lights[PACKETS];

@@ -35,6 +35,9 @@ static vfloat cosine_of(const vvec3 *way, vfloat distance2, const vvec3 *normal)
     return vdot(*way, *normal) / vsqrt(distance2);
 }
 
+/* Maps hold what patches of the second generation send on. */
+static vmask asks_second(const path_tracer *t) { return t->indirect ? (vmask){ 0 } : ALL_LANES; }
+
 vfloat path_onto(const path_tracer *t, int k, vmask active)
 {
     vfloat pdf = load(t, PDF, k);
@@ -66,7 +69,7 @@ vfloat path_patch_share(const path_tracer *t, int k, int sun, const vvec3 *wi, v
     vfloat square = sun_patch_density(t->patches, sun, &z, &y->position, wi, active);
     vfloat asked  = square * to_sun * distance2 / (from_y * pdf);
     vfloat onto   = load(t, ONTO, k);
-    vmask second  = active & (onto > 0.0f) & (vdot(*wi, y->normal) > 0.0f);
+    vmask second  = active & (onto > 0.0f) & (vdot(*wi, y->normal) > 0.0f) & asks_second(t);
     vfloat other  = { 0 };
     if (vany(second)) {
         vvec3 x = load3(t, FARTHER, k);
@@ -119,7 +122,7 @@ static vfloat count_first(const path_tracer *t, int k, int sun, const patch_poin
     vfloat own   = pdf * back / (square * to_sun * distance2);
     vfloat onto  = beginning ? (vfloat){ 0 } : path_onto(t, k, active);
     vmask second = active & (onto > 0.0f) & (vdot(way, y->at.normal) < 0.0f) &
-                   (vdot(y->before, y->at.normal) > 0.0f);
+                   (vdot(y->before, y->at.normal) > 0.0f) & asks_second(t);
     vfloat other = { 0 };
     if (vany(second)) {
         vvec3 x       = load3(t, LEFT, k);
@@ -159,7 +162,8 @@ static void connect(path_tracer *t, int k, int sun, patch_generation which, bool
 {
     const vsurface *x = &t->at[k];
     bool in_turn      = sun_patch_suns(t->patches) > TURNS && !(beginning && which == PATCH_FIRST);
-    vmask asks        = t->asks[k] & (in_turn ? path_in_turn(t, k, sun, TURNS) : ALL_LANES);
+    vmask open        = beginning || !t->indirect ? ALL_LANES : ~t->ends[k];
+    vmask asks        = t->asks[k] & open & (in_turn ? path_in_turn(t, k, sun, TURNS) : ALL_LANES);
     t->asked[k]       = (vmask){ 0 };
     if (!vany(asks))
         return;
@@ -212,7 +216,9 @@ void path_ask_patches(path_tracer *t, bool beginning)
     for (int k = 0; k < n; k++)
         u[k] = path_numbers(t, k, OF_PATCH);
     for (int i = 0; i < 2 * sun_patch_suns(t->patches); i++) {
-        patch_generation which  = i % 2 ? PATCH_SECOND : PATCH_FIRST;
+        patch_generation which = i % 2 ? PATCH_SECOND : PATCH_FIRST;
+        if (which == PATCH_SECOND && t->indirect)
+            continue;
         int sun                 = sun_patch_sun(t->patches, i / 2);
         const scene_light *info = &s->light_info[scene_lamp_count(s) + sun];
         path_layer of           = { info->group, info->dimming, true, false };

@@ -60,4 +60,7 @@ void plan_apply(const plan *p, run_options *o);
 void plan_print(const plan *p);
 void plan_print_json(const plan *p);
 
+/* Of a study's views, where the plan is that of its grids. */
+void plan_print_transport(const plan *p, const char *of);
+
 #endif

@@ -30,6 +30,11 @@ void plan_print(const plan *p)
         printf("interval not valid: %s\n", p->weak[i]);
 }
 
+void plan_print_transport(const plan *p, const char *of)
+{
+    printf("transport of %s: %s: %s\n", of, transport_name(p->transport), p->transport_why);
+}
+
 void plan_print_json(const plan *p)
 {
     fputs("{\"effects\":[", stdout);

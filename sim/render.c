@@ -176,7 +176,7 @@ bool view_run(arena *a, const scene *s, const study_view *view, const run_option
                                         .width       = v.camera.width,
                                         .height      = v.camera.height,
                                         .asked = isnan(o->accuracy) ? VIEW_DEFAULT_PERCENT / 100.0 : o->accuracy,
-                                        .left_to_chance = scene_left_to_chance(s, o->direct_only, true) };
+                                        .left_to_chance = scene_left_to_chance(s, o->direct_only) };
     v.asked            = out->asked;
     progress_begin(o->progress, view->name);
     bool good = run(a, &scratch, &v, out, err);

@@ -189,7 +189,7 @@ typedef struct scene {
 bool scene_focuses(const scene *s, double accuracy);
 
 /* The light that samples may miss without an interval telling, in words; NULL if there is none. */
-const char *scene_left_to_chance(const scene *s, bool direct_only, bool focused_found);
+const char *scene_left_to_chance(const scene *s, bool direct_only);
 
 /* Ways of reckoning that are worse or slower, for lux4 cost to show what the usual ones are worth.
  */

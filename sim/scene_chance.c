@@ -322,7 +322,7 @@ int scene_small_patches(const scene *s, notices *n)
     return count + glowing;
 }
 
-const char *scene_left_to_chance(const scene *s, bool direct_only, bool focused_found)
+const char *scene_left_to_chance(const scene *s, bool direct_only)
 {
     bool plates = s->solids && (s->light_count > 0 || s->emitter_count > 0);
     if (direct_only)
@@ -334,8 +334,6 @@ const char *scene_left_to_chance(const scene *s, bool direct_only, bool focused_
     if (s->lamps_hide && s->by_lamps.narrow > SHARE_THAT_MATTERS)
         return "light of small lights that comes by way of smooth surfaces, not quite mirrors, is "
                "rarely found";
-    if (scene_focuses(s, 0.0) && !focused_found)
-        return "light that round mirrors or solids of glass focus is not found";
     if (plates && !s->lenses)
         return "light that bends in plates of glass is taken to pass them straight";
     return NULL;

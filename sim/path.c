@@ -198,7 +198,8 @@ static void note_scattered(path_tracer *t, int k, const vscatter *next)
     vint wide   = vselect_int(next->pdf < INFINITY, WIDE | glossy, vsplat_int(0));
     vint single =
         vselect_int(next->pdf == INFINITY, vsplat_int(BENT | FOCUSED | GLOSSY), vsplat_int(0));
-    vint kept  = before & (WIDE | OUTDOORS | NOWHERE | ALL_ROUND | single);
+    vint last  = vselect_int((before & MAPPED) != 0, vsplat_int(LAST), vsplat_int(0));
+    vint kept  = (before & (WIDE | OUTDOORS | NOWHERE | ALL_ROUND | LAST | single)) | last;
     vint after = kept | wide | around | SCATTERED;
     vstore_int(t->state + k * LANES, vselect_int(next->straight, before | PASSED, after));
     if (t->fields < FIELDS)
@@ -206,6 +207,18 @@ static void note_scattered(path_tracer *t, int k, const vscatter *next)
     vmask drawn   = ~next->straight & (next->pdf < INFINITY);
     vfloat spread = load(t, SPREAD, k);
     store(t, SPREAD, k, vselect(drawn, vmax(spread, vsplat(wide_spread)), spread));
+}
+
+/* Paths that look for what shines by itself alone go straight on, or by mirror images. */
+static vmask looks_on(const path_tracer *t, int k, const vscatter *next, vmask before)
+{
+    vmask last = before & state_has(t, k, LAST);
+    if (!vany(last))
+        return ALL_LANES;
+    vmask on = next->straight;
+    if (t->s->mirror_images)
+        on = on | ((next->pdf == INFINITY) & (images_of(t, k) > 0));
+    return ~last | on;
 }
 
 /* Draws where a path goes on, or that it ends. */
@@ -238,6 +251,7 @@ static void draw_directions(path_tracer *t)
     for (int k = 0; k < n; k++) {
         vscatter next;
         vmask goes = next_direction(t, k, &next);
+        vmask last = state_has(t, k, LAST);
         if (t->fields > PLAIN_FIELDS)
             leave(t, k, &next);
         note_scattered(t, k, &next);
@@ -245,6 +259,8 @@ static void draw_directions(path_tracer *t)
             leave_base(t, k, &next);
         if (t->focused)
             leave_to_maps(t, k, &next);
+        if (t->indirect)
+            goes = goes & looks_on(t, k, &next, last);
         store3(t, PLACE, k, vray_start(&t->at[k], &next.wi));
         store3(t, WAY, k, next.wi);
         kept = keep(t, k, goes, kept);
@@ -292,7 +308,8 @@ static void arrive(path_tracer *t, int k)
         store(t, WIDTH, k, width);
     }
     scene_shade(s, &hit, &way, width, active, &t->at[k], &t->shading[k]);
-    t->active[k] = t->asks[k] = active;
+    t->active[k] = active;
+    t->asks[k]   = t->indirect ? active & ~state_has(t, k, LAST) : active;
     if (!s->narrow && !s->hollow && !s->exteriors)
         return;
     vint does  = vgather_int(s->material_does, vkeep_int(active, t->at[k].material));
@@ -301,7 +318,7 @@ static void arrive(path_tracer *t, int k)
         note_outdoors(t, k, does);
     if (!s->narrow)
         return;
-    t->asks[k]   = active & ((does & DOES_ASK) != 0);
+    t->asks[k]   = t->asks[k] & ((does & DOES_ASK) != 0);
     t->around[k] = active & ((does & DOES_AROUND) != 0);
 }
 
@@ -434,10 +451,10 @@ void path_trace(path_tracer *t, path_bundle *b, const path_options *o)
         if (!o->bounce && !s->hollow)
             return;
         draw_numbers(t);
-        if (o->bounce && goes_on(t, 0))
-            ask(t, false);
         if ((t->indirect || t->focused) && o->bounce)
             path_take_maps(t);
+        if (o->bounce && goes_on(t, 0))
+            ask(t, false);
         draw_directions(t);
     }
 }

@@ -1,8 +1,9 @@
 /* sim/path_map.c -- illumination maps where paths come to matt surfaces (illumination_map.h).
  *
  * A path that has gone off in a direction drawn from many ends where a map knows what comes next:
- * the light that has been reflected before, all of it. Focused light, which no path finds, is added
- * wherever it lies, and the path goes on.
+ * the light that has been reflected before, all of it. What lights there are is asked for as ever:
+ * that counts but in part where rays find it, too, so that one goes on and looks. Focused light,
+ * which no path finds, is added wherever it lies, and the path goes on.
  */
 #include "core/color.h"
 #include "sim/path_parts.h"
@@ -78,13 +79,18 @@ static vmask look(path_tracer *t, const illumination_map *m, int k, vmask lanes)
 
 void path_take_maps(path_tracer *t)
 {
+    const scene *s = t->s;
+    bool rays_look = s->glows || s->sky_count > 0 || s->mirror_images;
     for (int k = 0; k < packets_of(t); k++) {
-        vmask lanes = matt_lanes(t, k);
+        vmask lanes = matt_lanes(t, k) & ~state_has(t, k, LAST);
         vmask ended = { 0 };
         if (t->indirect && vany(lanes & state_has(t, k, WIDE)))
             ended = look(t, t->indirect, k, lanes & state_has(t, k, WIDE));
         if (t->focused && vany(lanes & ~ended))
             look(t, t->focused, k, lanes & ~ended);
-        t->active[k] = t->active[k] & ~ended;
+        vint state = vload_int(t->state + k * LANES);
+        vstore_int(t->state + k * LANES, vselect_int(ended, state | MAPPED, state));
+        if (!rays_look)
+            t->active[k] = t->active[k] & ~ended;
     }
 }

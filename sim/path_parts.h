@@ -39,16 +39,19 @@ enum {
 
 /* Of a living path, bits. */
 enum {
-    SCATTERED = 1,   /* it has left its beginning other than straight on */
-    AROUND    = 2,   /* where it was last, light from below the horizon counts */
-    PASSED    = 4,   /* it has gone straight on through something since */
-    WIDE      = 8,   /* some direction of it was drawn from many */
-    OUTDOORS  = 16,  /* the first surface that it met is outside */
-    NOWHERE   = 32,  /* its base is its beginning */
-    ALL_ROUND = 64,  /* at its base light from below the horizon counted */
-    BENT      = 128, /* it has entered a plate of glass, which shadow rays have passed straight */
-    FOCUSED   = 256, /* it has met what focuses: lamps that it meets are for maps */
-    GLOSSY    = 512, /* a direction of it was last drawn from many where no map is asked */
+    SCATTERED = 1,    /* it has left its beginning other than straight on */
+    AROUND    = 2,    /* where it was last, light from below the horizon counts */
+    PASSED    = 4,    /* it has gone straight on through something since */
+    WIDE      = 8,    /* some direction of it was drawn from many */
+    OUTDOORS  = 16,   /* the first surface that it met is outside */
+    NOWHERE   = 32,   /* its base is its beginning */
+    ALL_ROUND = 64,   /* at its base light from below the horizon counted */
+    BENT      = 128,  /* it has entered a plate of glass, which shadow rays have passed straight */
+    FOCUSED   = 256,  /* it has met what focuses: lamps that it meets are for maps */
+    GLOSSY    = 512,  /* a direction of it was last drawn from many where no map is asked */
+    MAPPED    = 1024, /* where it stands a map knows all light that has been reflected before; */
+    LAST      = 2048, /* where it last went off in a direction drawn from many, so that it looks
+                         for what shines by itself alone, straight or by mirror images */
 };
 
 struct path_tracer {
@@ -213,7 +216,8 @@ void path_ask_patches(path_tracer *t, bool beginning);
  * of what path_ask_patches() may have asked; wi: toward the sun. */
 vfloat path_patch_share(const path_tracer *t, int k, int sun, const vvec3 *wi, vmask active);
 
-/* Light that maps know where the paths stand; those that it is all for end there. */
+/* Light that maps know where the paths stand; those that it is all for end there, but for what they
+ * find of the lights that are asked there. */
 void path_take_maps(path_tracer *t);
 
 /* The density, 1/m^2, with which the paths' own rays have come to where packet k stands; 0 where

@@ -160,6 +160,7 @@ static void connect(path_tracer *t, int k, int sun, patch_generation which, bool
     const vsurface *x = &t->at[k];
     bool in_turn      = sun_patch_suns(t->patches) > TURNS && !(beginning && which == PATCH_FIRST);
     vmask asks        = t->asks[k] & (in_turn ? path_in_turn(t, k, sun, TURNS) : ALL_LANES);
+    asks              = asks & ~state_has(t, k, MAPPED);
     t->asked[k]       = (vmask){ 0 };
     if (!vany(asks))
         return;

@@ -115,6 +115,8 @@ void path_add_sky(path_tracer *t)
     for (int k = 0; k < packets_of(t); k++) {
         vfloat pdf   = load(t, PDF, k);
         vmask active = t->active[k] & (t->hits[k].instance < 0) & (pdf >= 0.0f);
+        if (t->indirect && t->s->mirror_images) /* which maps hold of it */
+            active = active & ~(state_has(t, k, LAST) & (images_of(t, k) != 0));
         if (!vany(active))
             continue;
         vmask asked  = active & (pdf < INFINITY);

@@ -313,6 +313,12 @@ static int first_samples(const scene *s)
     return s->by_lamps.narrow > SHARE_THAT_MATTERS ? MIRROR_SAMPLES / SCRAMBLES : 8;
 }
 
+static bool interrupted(const grid_result *r, lux_error *err)
+{
+    return failed(err, ERR_INTERRUPTED, "interrupted before grid %s had its first results",
+                  r->grid->name);
+}
+
 static bool sample_rest(arena *a, grid_run_state *g, grid_result *r, lux_error *err)
 {
     accuracy_desc d = { .items         = r->sensor_count,
@@ -338,8 +344,7 @@ static bool sample_rest(arena *a, grid_run_state *g, grid_result *r, lux_error *
     if (!accuracy_run(a, &d, &got, err))
         return false;
     if (!got.complete)
-        return failed(err, ERR_INTERRUPTED, "interrupted before grid %s had its first results",
-                      r->grid->name);
+        return interrupted(r, err);
     take_results(g, &got, r);
     r->missed = got.missed;
     if (r->in_doubt && !r->left_to_chance && !g->o->direct_only && anything_shines(g->s))
@@ -404,10 +409,9 @@ static bool run(arena *a, arena *scratch, grid_run_state *g, grid_result *out, l
     parallel_for(chunks, g->o->threads, grid_sum_chunk, g,
                  g->o->progress ? g->o->progress->stop : NULL);
     if (progress_stopped(g->o->progress))
-        return failed(err, ERR_INTERRUPTED, "interrupted before grid %s had its first results",
-                      out->grid->name);
+        return interrupted(out, err);
     if (!grid_make_maps(g, scratch, err))
-        return false;
+        return err->code == ERR_INTERRUPTED ? interrupted(out, err) : false;
     bool lit      = scene_is_lit(s);
     bool reflects = s->reflects && lit && !g->o->direct_only;
     if (s->glows || s->sky_count > 0 || g->disks || reflects || atomic_load(&g->lamps_left))

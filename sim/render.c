@@ -180,6 +180,9 @@ bool view_run(arena *a, const scene *s, const study_view *view, const run_option
     v.asked            = out->asked;
     progress_begin(o->progress, view->name);
     bool good = run(a, &scratch, &v, out, err);
+    if (!good && err->code == ERR_INTERRUPTED)
+        failed(err, ERR_INTERRUPTED, "interrupted before view %s had its first picture",
+               view->name);
     out->rays = v.maps.rays;
     for (int t = 0; good && t < o->threads; t++)
         out->rays += v.threads[t].ray_count + path_rays(v.threads[t].paths);

@@ -67,7 +67,7 @@ TEST(each_command_has_its_help)
     assert_tells(&page, "luminaires");
     program_free(&page);
     LUX4_FAILS(NULL, 2, "unknown command `gird`", "help", "gird");
-    LUX4_FAILS(NULL, 2, "`cost` is not supported yet", "help", "cost");
+    LUX4_FAILS(NULL, 2, "`tone` is not supported yet", "help", "tone");
 }
 
 TEST(the_version_is_told)
@@ -87,7 +87,7 @@ TEST(what_is_no_command_is_refused)
 
 TEST(commands_that_are_promised_are_refused_by_name)
 {
-    static const char *const commands[] = { "cost", "tone", "diff" };
+    static const char *const commands[] = { "tone", "diff" };
     for (size_t i = 0; i < sizeof commands / sizeof *commands; i++)
         LUX4_FAILS(NULL, 2, "is not supported yet", commands[i], "study.yaml");
 }

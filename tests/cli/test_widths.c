@@ -2,6 +2,7 @@
 #include "tests/box_gltf.h"
 #include "tests/folder.h"
 #include "tests/lab_picture.h"
+#include "tests/lab_sphere.h"
 #include "tests/program.h"
 #include "tests/test.h"
 #include "tests/widths.h"
@@ -254,11 +255,74 @@ TEST(materials_of_all_kinds_are_the_same_at_every_width_and_on_every_thread)
     lab_close(&l);
 }
 
+/* ---- mirrors, lenses and maps ---------------------------------------------------------------- */
+
+static const char bent[] =
+    "lux4: 1\nroom: {size: [4, 3, 2.5], reflectance: 0.5}\n"
+    "scene: [mirror.gltf, pane.gltf, ball.gltf]\n"
+    "lights:\n  - {type: point, at: [1, 1, 2], lumens: 2000, color: 3000K}\n"
+    "  - {type: rect, at: [3, 2, 2.4], size: [0.5, 0.5], lumens: 900}\n"
+    "materials:\n  - {match: Mirror, mirror: [0.9, 0.8, 0.7]}\n"
+    "  - {match: Pane, transmittance: 0.7}\n"
+    "grids:\n  - {name: g, on: room, height: 0.3, spacing: 1}\n"
+    "  - {name: c, on: room, height: 1.2, spacing: 2, quantity: cylindrical}\n";
+
+static void write_bent(lab *l)
+{
+    quad mirror = { { { 0.1, 0.5, 0.2 }, { 0.1, 2.5, 0.2 }, { 0.1, 2.5, 2 }, { 0.1, 0.5, 2 } } };
+    quad pane   = { { { 2, 0.5, 0 }, { 2, 2.5, 0 }, { 2, 2.5, 1.4 }, { 2, 0.5, 1.4 } } };
+    lab_quads(l, "mirror.gltf", &mirror, 1, LOOKS("Mirror", ""));
+    lab_quads(l, "pane.gltf", &pane, 1, LOOKS("Pane", ""));
+    lab_sphere(
+        l, "ball.gltf", (dvec3){ 1.2, 1.2, 1.2 }, 0.3, 12,
+        LOOKS("Ball", "\"metallicFactor\":0,\"roughnessFactor\":0") ",\"extensions\":{" CLEAR
+                                                                    ",\"KHR_materials_volume\":{"
+                                                                    "\"thicknessFactor\":1}}");
+    lab_write(l, "study.yaml", "%s", bent);
+}
+
+/* By paths and by maps, with one and two threads. */
+TEST(images_focused_light_and_maps_are_the_same_at_every_width_and_on_every_thread)
+{
+    static const char *const names[] = { "g.csv", "g.exr", "c.csv", "c.exr" };
+    static const char *const by[]    = { "path", "maps" };
+    lab l;
+    lab_open(&l);
+    write_bent(&l);
+    int first = 0; /* width */
+    for (int width = 1; width; width = width_after(width)) {
+        char program[4096], out[32], one[64], other[64];
+        if (!program_of_width(width, program, sizeof program))
+            continue;
+        first = first ? first : width;
+        for (int i = 0; i < 4; i++) {
+            program_result r = { 0 };
+            snprintf(out, sizeof out, "%d-%d-%d", width, i & 1, i >> 1);
+            program_expect(0,
+                           &(program_desc){ .program = program,
+                                            .folder  = l.folder,
+                                            .words = { "grid", "study.yaml", "-o", out, "--threads",
+                                                       i & 1 ? "2" : "1", "--accuracy", "20%",
+                                                       "--transport", by[i >> 1] } },
+                           &r);
+            program_free(&r);
+            for (int n = 0; n < 4; n++) {
+                snprintf(one, sizeof one, "%d-0-%d/%s", first, i >> 1, names[n]);
+                snprintf(other, sizeof other, "%s/%s", out, names[n]);
+                assert_same_bytes(path_in(l.folder, one), path_in(l.folder, other));
+            }
+        }
+    }
+    lab_close(&l);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lamps_of_all_kinds_are_the_same_at_every_width_and_on_every_thread),
         cmocka_unit_test(materials_of_all_kinds_are_the_same_at_every_width_and_on_every_thread),
+        cmocka_unit_test(
+            images_focused_light_and_maps_are_the_same_at_every_width_and_on_every_thread),
         cmocka_unit_test(a_room_is_the_same_at_every_width),
         cmocka_unit_test(a_view_is_the_same_at_every_width),
         cmocka_unit_test(the_office_is_the_same_at_every_width),

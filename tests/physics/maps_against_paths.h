@@ -10,8 +10,8 @@
 #include <stdio.h>
 
 /* The root of the mean square by which maps are off from paths, of max(value, a tenth of the
- * grid's average), over all sensors of a study's grids: 2 % at most. Maps are as accurate as is
- * usual, paths twice that. */
+ * grid's average), over all sensors of a study's grids: 2 % at most. Both are as accurate as
+ * is usual. */
 static inline void maps_agree_with_paths(const char *file, const char *variant)
 {
     arena a       = { 0 };
@@ -29,7 +29,6 @@ static inline void maps_agree_with_paths(const char *file, const char *variant)
         grid_result maps, paths;
         run_options o = { .accuracy = 0.02, .seed = 1, .threads = 2, .transport = TRANSPORT_MAPS };
         grid_of_scene(&a, s, g, &o, &maps);
-        o.accuracy  = 0.01;
         o.seed      = 2;
         o.transport = TRANSPORT_PATH;
         grid_of_scene(&a, s, g, &o, &paths);

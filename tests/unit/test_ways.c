@@ -30,7 +30,7 @@ TEST(panes_and_plane_mirrors_focus_nothing)
     assert_non_null(s->mirror_images);
     assert_no_way(s->by_suns);
     assert_no_way(s->by_lamps);
-    assert_null(scene_left_to_chance(s, false, false));
+    assert_null(scene_left_to_chance(s, false));
     assert_false(was_told("by way of"));
 }
 
@@ -70,8 +70,7 @@ TEST(all_that_meets_a_ball_of_clear_glass_is_focused)
     assert_no_way(s->by_suns);
     assert_true(was_told("% of the light of lamps comes by way of round mirrors or solids of glass "
                          "(first \"Ball\"): "));
-    assert_non_null(scene_left_to_chance(s, false, false));
-    assert_null(scene_left_to_chance(s, false, true));
+    assert_null(scene_left_to_chance(s, false));
 }
 
 TEST(what_a_round_mirror_leaves_is_focused)
@@ -87,7 +86,7 @@ TEST(a_matt_ball_focuses_nothing)
 {
     const scene *s = with_ball("\"name\":\"Ball\"", LAMP);
     assert_no_way(s->by_lamps);
-    assert_null(scene_left_to_chance(s, false, false));
+    assert_null(scene_left_to_chance(s, false));
 }
 
 /* ---- narrow lobes ---------------------------------------------------------------------------- */
@@ -102,8 +101,8 @@ TEST(sunlight_by_narrow_lobes_is_told_of)
     assert_true(s->by_suns.focused == 0.0);
     assert_true(was_told("of the light of suns comes by way of narrow lobes (first \"room: "
                          "floor\"): it is found rarely, intervals are not valid"));
-    assert_non_null(scene_left_to_chance(s, false, true));
-    assert_null(scene_left_to_chance(s, true, true));
+    assert_non_null(scene_left_to_chance(s, false));
+    assert_null(scene_left_to_chance(s, true));
 }
 
 TEST(narrow_lobes_in_the_shade_are_not)
@@ -112,7 +111,7 @@ TEST(narrow_lobes_in_the_shade_are_not)
                                              "{azimuth: 180, elevation: "
                                              "40}}\n");
     assert_no_way(s->by_suns);
-    assert_null(scene_left_to_chance(s, false, false));
+    assert_null(scene_left_to_chance(s, false));
 }
 
 TEST(lamps_by_narrow_lobes_are_told_of_unless_rays_meet_them)
@@ -122,13 +121,13 @@ TEST(lamps_by_narrow_lobes_are_told_of_unless_rays_meet_them)
     assert_true(s->lamps_hide);
     assert_true(s->by_lamps.narrow > SHARE_THAT_MATTERS);
     assert_true(was_told("of the light of lamps comes by way of narrow lobes"));
-    assert_non_null(scene_left_to_chance(s, false, true));
+    assert_non_null(scene_left_to_chance(s, false));
     s = told_scene_of(ROOM("1") FLOOR GLOSS
                       "lights: [{type: rect, at: [2, 3, 2.9], size: [3, 3], lumens: 1000}]\n");
     assert_false(s->lamps_hide);
     assert_true(s->by_lamps.narrow > SHARE_THAT_MATTERS);
     assert_false(was_told("narrow lobes"));
-    assert_null(scene_left_to_chance(s, false, true));
+    assert_null(scene_left_to_chance(s, false));
 }
 
 #define CASE(name) cmocka_unit_test_setup_teardown(name, told_prepare, told_forget)

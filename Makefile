@@ -46,7 +46,7 @@ ifneq (,$(filter-out help clean deps layers format format-check,$(or $(MAKECMDGO
   include build/pkg.mk
 endif
 
-CPPFLAGS := -I. -MMD -MP -DPACKET_WIDTH=$(WIDTH) -DLUX4_VERSION='"$(VERSION)"' \
+CPPFLAGS := -I. $(foreach w,$(WITHOUT),-DWITHOUT_$(shell echo $w | tr a-z A-Z)) -MMD -MP -DPACKET_WIDTH=$(WIDTH) -DLUX4_VERSION='"$(VERSION)"' \
             -DLUX4_LIBDIR='"$(PREFIX)/lib/lux4"' $(PKG_CFLAGS)
 CFLAGS   := -std=gnu17 -g $(OPT) $(FP) $(SANS) $(WARN) $(WARN_C)
 CXXFLAGS := -std=c++17 -g $(OPT) $(FP) $(SANS) $(WARN)
@@ -56,10 +56,15 @@ LDLIBS   := $(PKG_LIBS) -lm -ldl -pthread
 # ---- what there is to build -----------------------------------------------------------------
 
 TOOL  := $(if $(findstring clang,$(CC)),clang-)
-KIND  := $(TOOL)$(if $(FUZZ),fuzz,$(if $(SAN),san,$(if $(DEBUG),debug,$(if $(NATIVE),native,release))))
+KIND  := $(TOOL)$(if $(FUZZ),fuzz,$(if $(SAN),san,$(if $(DEBUG),debug,$(if $(NATIVE),native,release))))$(if $(WITHOUT),-without)
 B     := build/$(KIND)-$(WIDTH)
 SHIM  := core/image_oiio.cpp
 SRC   := $(filter-out sim/main.c $(SHIM),$(wildcard $(LAYERS:%=%/*.c) $(LAYERS:%=%/*.cpp)))
+# Of these there is one object for each kernel (sim/path_kernel.h)
+KERNELS := 0 1 2 3 4 5 6 7
+KERNEL_SRC := $(filter-out %/path_tracer.c,$(filter sim/path.c sim/path_%.c,$(SRC)))
+OBJ   := $(patsubst %,$B/%.o,$(filter-out $(KERNEL_SRC),$(SRC))) \
+         $(foreach k,$(KERNELS),$(KERNEL_SRC:%.c=$B/%.k$k.o))
 AIDS  := $(wildcard tests/*.c)
 TESTS := $(patsubst %.c,$B/%,$(wildcard tests/*/test_*.c))
 LONG  := $(patsubst %.c,$B/%,$(wildcard tests/*/long_*.c))
@@ -89,7 +94,7 @@ Q         := $(if $V,,@)
 ## all: the library and the program (what plain `make` does)
 all: $B/liblux4.a $(PROG) $(PLUG)
 
-$B/liblux4.a: $(SRC:%=$B/%.o) $B/links
+$B/liblux4.a: $(OBJ) $B/links
 	@echo "AR   $@"; rm -f $@
 	$Qar rcs $@ $(filter %.o,$^)
 
@@ -158,6 +163,13 @@ $B/%.c.o: %.c $B/flags
 	@mkdir -p $(@D); echo "CC   $<"
 	$Q$(CC) $(CPPFLAGS) $(CFLAGS) -c $< -o $@
 
+define KERNEL_RULE
+$B/%.k$1.o: %.c $B/flags
+	@mkdir -p $$(@D); echo "CC   $$< (kernel $1)"
+	$$Q$$(CC) $$(CPPFLAGS) -DPATH_KERNEL=$1 $$(CFLAGS) -c $$< -o $$@
+endef
+$(foreach k,$(KERNELS),$(eval $(call KERNEL_RULE,$k)))
+
 $B/%.cpp.o: %.cpp $B/flags
 	@mkdir -p $(@D); echo "CXX  $<"
 	$Q$(CXX) $(CPPFLAGS) $(CXXFLAGS) -c $< -o $@
@@ -168,7 +180,7 @@ $B/links: TELL = $(CXX) $(LDFLAGS) $(LDLIBS) $(SRC) $(AIDS)
 $B/flags $B/links: FORCE
 	@mkdir -p $(@D); echo '$(subst ','\'',$(TELL))' | cmp -s - $@ || echo '$(subst ','\'',$(TELL))' > $@
 
--include $(patsubst %,$B/%.d,$(SRC:=) $(AIDS) sim/main.c) $(addsuffix .c.d,$(TESTS) $(LONG) $(BENCH) $(FUZZERS))
+-include $(OBJ:.o=.d) $(patsubst %,$B/%.d,$(AIDS) sim/main.c) $(addsuffix .c.d,$(TESTS) $(LONG) $(BENCH) $(FUZZERS))
 -include $(PLUG:.so=.d) $(patsubst %.o,%.d,$(MODEL) $(OFFICE) $(CAR) $(GLASS) $(COURT) $(LAYER)) $(PLAIN:=.d) $(X87_PLAIN:=_387.d)
 
 # What is missing is installed for check and demo, which set a machine up; else it is named.

@@ -8,6 +8,7 @@
 #   WIDTH=1 one ray at a time: the scalar baseline of every speed-up (also: 8, with AVX2)
 #   SAN=1   address and undefined-behaviour sanitizers     WERROR=1 warnings are errors
 #   DEBUG=1 -O1, for a debugger                            NATIVE=1 for this very processor
+#   WITHOUT="daylight mirrors textures tables"  a build that lacks these (core/without.h)
 #   V=1     show the commands                              CC=clang CXX=clang++
 
 VERSION := 0.1.0
@@ -88,7 +89,7 @@ MAKEFLAGS += --no-builtin-rules --no-print-directory
 Q         := $(if $V,,@)
 .DELETE_ON_ERROR:
 .SECONDARY:
-.PHONY: all check check-long tests tests-inside demo bench bench-lights bench-brdf bench-texture bench-sky bench-hall bench-programs bench-deps deps fuzz fuzzers install layers \
+.PHONY: all check check-long tests tests-inside demo bench bench-lights bench-brdf bench-texture bench-sky bench-hall bench-effects bench-programs bench-deps deps fuzz fuzzers install layers \
         format format-check clean help FORCE
 
 ## all: the library and the program (what plain `make` does)
@@ -241,6 +242,14 @@ bench-lights bench-brdf bench-texture bench-sky: bench-%:
 	@{ echo "# $$(git describe --always --dirty 2>/dev/null) $(CC) $(OPT)"; \
 	  build/$(KIND)-4/tests/bench/bench_$* build/$(KIND)-1/tests/bench/bench_$*; } | tee -a build/bench.log
 
+## bench-effects: instructions of a run where effects are off, beside a build that does not have them
+OFF := daylight mirrors textures tables
+bench-effects:
+	$Q$(MAKE) all WIDTH=4
+	$Q$(MAKE) all WIDTH=4 WITHOUT="$(OFF)"
+	@{ echo "# $$(git describe --always --dirty 2>/dev/null) $(CC) $(OPT)"; \
+	  tests/bench/effects build/$(KIND)-4 build/$(KIND)-without-4; } | tee -a build/bench.log
+
 ## bench-hall: seconds that 1,000 lamps in a hall cost, beside 10; appended to build/bench.log
 bench-hall:
 	$Q$(MAKE) build/$(KIND)-4/tests/bench/bench_hall WIDTH=4
@@ -306,4 +315,4 @@ clean: ; $Qrm -rf build
 ## help: this list
 help:
 	@sed -n 's/^## \([a-z, -]*\): /\1\t/p' $(MAKEFILE_LIST) | awk -F'\t' '{ printf "  make %-22s %s\n", $$1, $$2 }'
-	@sed -n 's/^#   \([A-Z]*=[1c].*\)/  \1/p' $(MAKEFILE_LIST)
+	@sed -n 's/^#   \([A-Z]*=[1c"].*\)/  \1/p' $(MAKEFILE_LIST)

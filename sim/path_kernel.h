@@ -9,6 +9,8 @@
 #ifndef SIM_PATH_KERNEL_H
 #define SIM_PATH_KERNEL_H
 
+#include "sim/path.h"
+
 /* What a kernel leaves out: the bits of its number. */
 enum {
     KERNEL_GREY = 1,  /* two of three channels, which are as the first in a grey scene */
@@ -17,6 +19,10 @@ enum {
     KERNEL_NIGHT = 4, /* suns, skies */
     KERNELS      = 8
 };
+
+/* From now on that kernel follows the paths of t, unless it leaves out what the scene calls for:
+ * results are the same. The one that does. */
+int path_use_kernel(path_tracer *t, int kernel);
 
 #ifndef PATH_KERNEL /* what all kernels share */
 #define PATH_KERNEL 0

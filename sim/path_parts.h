@@ -60,7 +60,7 @@ enum {
 /* Alike in all kernels. */
 struct path_tracer {
     const scene *s;
-    void (*follow)(path_tracer *t); /* the paths of b, by its kernel */
+    int kernel; /* by which paths are followed: bits of what that leaves out */
     const path_options *o;
     direct_scratch *direct;
     seen_lamps shown;                           /* lamps that rays may find */

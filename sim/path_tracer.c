@@ -10,16 +10,17 @@ typedef void path_follower(path_tracer *t);
 path_follower path_follow_k0, path_follow_k1, path_follow_k2, path_follow_k3;
 path_follower path_follow_k4, path_follow_k5, path_follow_k6, path_follow_k7;
 
-/* That leaves out all that the scene does not call for. */
-static path_follower *kernel_of(const scene *s)
+static path_follower *const followers[KERNELS] = { path_follow_k0, path_follow_k1, path_follow_k2,
+                                                   path_follow_k3, path_follow_k4, path_follow_k5,
+                                                   path_follow_k6, path_follow_k7 };
+
+/* The bits of what the scene does not call for. */
+static int without(const scene *s)
 {
-    static path_follower *const all[KERNELS] = { path_follow_k0, path_follow_k1, path_follow_k2,
-                                                 path_follow_k3, path_follow_k4, path_follow_k5,
-                                                 path_follow_k6, path_follow_k7 };
     bool surfaces = s->narrow || s->hollow || s->smooth || s->textured || s->exteriors;
     bool day      = s->sky_count > 0 || s->sun_count > 0;
-    return all[(s->grey ? KERNEL_GREY : 0) | (surfaces || s->mirror_images ? 0 : KERNEL_MATT) |
-               (day ? 0 : KERNEL_NIGHT)];
+    return (s->grey ? KERNEL_GREY : 0) | (surfaces || s->mirror_images ? 0 : KERNEL_MATT) |
+           (day ? 0 : KERNEL_NIGHT);
 }
 
 /* Whether the paths' own rays find light. */
@@ -34,7 +35,7 @@ path_tracer *path_tracer_new(arena *a, const scene *s, lux_error *err)
     if (!t)
         return NULL;
     t->s      = s;
-    t->follow = kernel_of(s);
+    t->kernel = without(s);
     t->fields = has_textures(s)        ? FIELDS
                 : has_mirror_images(s) ? FARTHER
                 : finds_light(s)       ? BASE
@@ -48,6 +49,13 @@ path_tracer *path_tracer_new(arena *a, const scene *s, lux_error *err)
     t->list  = arena_array(a, int32_t, (size_t)t->shown.count + 1, err);
     t->boxes = lamp_boxes_new(a, s, &t->shown, err);
     return t->list && t->boxes ? t : NULL;
+}
+
+int path_use_kernel(path_tracer *t, int kernel)
+{
+    if ((kernel & ~without(t->s)) == 0)
+        t->kernel = kernel & (KERNELS - 1);
+    return t->kernel;
 }
 
 void path_use_patches(path_tracer *t, const sun_patches *patches)
@@ -99,7 +107,7 @@ void path_trace(path_tracer *t, path_bundle *b, const path_options *o)
     memset(b->met, 0, sizeof b->met);
     if (b->smoothed)
         memset(b->smoothed, 0, PATHS * sizeof *b->smoothed);
-    t->follow(t);
-    if (t->s->grey)
+    followers[t->kernel](t);
+    if (t->kernel & KERNEL_GREY)
         for_all_sums(t->s, b, copy_first_channel);
 }

@@ -62,7 +62,7 @@ B     := build/$(KIND)-$(WIDTH)
 SHIM  := core/image_oiio.cpp
 SRC   := $(filter-out sim/main.c $(SHIM),$(wildcard $(LAYERS:%=%/*.c) $(LAYERS:%=%/*.cpp)))
 # Of these there is one object for each kernel (sim/path_kernel.h)
-KERNELS := 0 1 2 3 4 5 6 7
+KERNELS := 0 1 2 3
 KERNEL_SRC := $(filter-out %/path_tracer.c,$(filter sim/path.c sim/path_%.c,$(SRC)))
 OBJ   := $(patsubst %,$B/%.o,$(filter-out $(KERNEL_SRC),$(SRC))) \
          $(foreach k,$(KERNELS),$(KERNEL_SRC:%.c=$B/%.k$k.o))

@@ -111,15 +111,9 @@ static inline bool has_mirror_images(const scene *s)
 {
     return SURFACES && HAS_MIRRORS && s->mirror_images;
 }
-static inline bool has_skies(const scene *s)
-{
-    return DAYLIGHT && HAS_DAYLIGHT && s->sky_count > 0;
-}
-static inline bool has_suns(const scene *s) { return DAYLIGHT && HAS_DAYLIGHT && s->sun_count > 0; }
-static inline bool has_patches(const path_tracer *t)
-{
-    return DAYLIGHT && HAS_DAYLIGHT && t->patches;
-}
+static inline bool has_skies(const scene *s) { return HAS_DAYLIGHT && s->sky_count > 0; }
+static inline bool has_suns(const scene *s) { return HAS_DAYLIGHT && s->sun_count > 0; }
+static inline bool has_patches(const path_tracer *t) { return HAS_DAYLIGHT && t->patches; }
 
 static inline int packets_of(const path_tracer *t) { return (t->alive + LANES - 1) / LANES; }
 

@@ -8,19 +8,16 @@
 
 typedef void path_follower(path_tracer *t);
 path_follower path_follow_k0, path_follow_k1, path_follow_k2, path_follow_k3;
-path_follower path_follow_k4, path_follow_k5, path_follow_k6, path_follow_k7;
 
 static path_follower *const followers[KERNELS] = { path_follow_k0, path_follow_k1, path_follow_k2,
-                                                   path_follow_k3, path_follow_k4, path_follow_k5,
-                                                   path_follow_k6, path_follow_k7 };
+                                                   path_follow_k3 };
 
 /* The bits of what the scene does not call for. */
 static int without(const scene *s)
 {
-    bool surfaces = s->narrow || s->hollow || s->smooth || s->textured || s->exteriors;
-    bool day      = s->sky_count > 0 || s->sun_count > 0;
-    return (s->grey ? KERNEL_GREY : 0) | (surfaces || s->mirror_images ? 0 : KERNEL_MATT) |
-           (day ? 0 : KERNEL_NIGHT);
+    bool matt = !s->narrow && !s->hollow && !s->smooth && !s->textured && !s->exteriors &&
+                !s->mirror_images;
+    return (s->grey ? KERNEL_GREY : 0) | (matt ? KERNEL_MATT : 0);
 }
 
 /* Whether the paths' own rays find light. */

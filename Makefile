@@ -8,6 +8,7 @@
 #   WIDTH=1 one ray at a time: the scalar baseline of every speed-up (also: 8, with AVX2)
 #   SAN=1   address and undefined-behaviour sanitizers     WERROR=1 warnings are errors
 #   DEBUG=1 -O1, for a debugger                            NATIVE=1 for this very processor
+#   WITHOUT="daylight mirrors textures tables"  a build that lacks these (core/without.h)
 #   V=1     show the commands                              CC=clang CXX=clang++
 
 VERSION := 0.1.0
@@ -46,7 +47,7 @@ ifneq (,$(filter-out help clean deps layers format format-check,$(or $(MAKECMDGO
   include build/pkg.mk
 endif
 
-CPPFLAGS := -I. -MMD -MP -DPACKET_WIDTH=$(WIDTH) -DLUX4_VERSION='"$(VERSION)"' \
+CPPFLAGS := -I. $(foreach w,$(WITHOUT),-DWITHOUT_$(shell echo $w | tr a-z A-Z)) -MMD -MP -DPACKET_WIDTH=$(WIDTH) -DLUX4_VERSION='"$(VERSION)"' \
             -DLUX4_LIBDIR='"$(PREFIX)/lib/lux4"' $(PKG_CFLAGS)
 CFLAGS   := -std=gnu17 -g $(OPT) $(FP) $(SANS) $(WARN) $(WARN_C)
 CXXFLAGS := -std=c++17 -g $(OPT) $(FP) $(SANS) $(WARN)
@@ -56,10 +57,15 @@ LDLIBS   := $(PKG_LIBS) -lm -ldl -pthread
 # ---- what there is to build -----------------------------------------------------------------
 
 TOOL  := $(if $(findstring clang,$(CC)),clang-)
-KIND  := $(TOOL)$(if $(FUZZ),fuzz,$(if $(SAN),san,$(if $(DEBUG),debug,$(if $(NATIVE),native,release))))
+KIND  := $(TOOL)$(if $(FUZZ),fuzz,$(if $(SAN),san,$(if $(DEBUG),debug,$(if $(NATIVE),native,release))))$(if $(WITHOUT),-without)
 B     := build/$(KIND)-$(WIDTH)
 SHIM  := core/image_oiio.cpp
 SRC   := $(filter-out sim/main.c $(SHIM),$(wildcard $(LAYERS:%=%/*.c) $(LAYERS:%=%/*.cpp)))
+# Of these there is one object for each kernel (sim/path_kernel.h)
+KERNELS := 0 1 2 3
+KERNEL_SRC := $(filter-out %/path_tracer.c,$(filter sim/path.c sim/path_%.c,$(SRC)))
+OBJ   := $(patsubst %,$B/%.o,$(filter-out $(KERNEL_SRC),$(SRC))) \
+         $(foreach k,$(KERNELS),$(KERNEL_SRC:%.c=$B/%.k$k.o))
 AIDS  := $(wildcard tests/*.c)
 TESTS := $(patsubst %.c,$B/%,$(wildcard tests/*/test_*.c))
 LONG  := $(patsubst %.c,$B/%,$(wildcard tests/*/long_*.c))
@@ -83,13 +89,13 @@ MAKEFLAGS += --no-builtin-rules --no-print-directory
 Q         := $(if $V,,@)
 .DELETE_ON_ERROR:
 .SECONDARY:
-.PHONY: all check check-long tests tests-inside demo bench bench-lights bench-brdf bench-texture bench-sky bench-hall bench-programs bench-deps deps fuzz fuzzers install layers \
+.PHONY: all check check-long tests tests-inside demo bench bench-lights bench-brdf bench-texture bench-sky bench-hall bench-effects bench-programs bench-deps deps fuzz fuzzers install layers \
         format format-check clean help FORCE
 
 ## all: the library and the program (what plain `make` does)
 all: $B/liblux4.a $(PROG) $(PLUG)
 
-$B/liblux4.a: $(SRC:%=$B/%.o) $B/links
+$B/liblux4.a: $(OBJ) $B/links
 	@echo "AR   $@"; rm -f $@
 	$Qar rcs $@ $(filter %.o,$^)
 
@@ -158,6 +164,13 @@ $B/%.c.o: %.c $B/flags
 	@mkdir -p $(@D); echo "CC   $<"
 	$Q$(CC) $(CPPFLAGS) $(CFLAGS) -c $< -o $@
 
+define KERNEL_RULE
+$B/%.k$1.o: %.c $B/flags
+	@mkdir -p $$(@D); echo "CC   $$< (kernel $1)"
+	$$Q$$(CC) $$(CPPFLAGS) -DPATH_KERNEL=$1 $$(CFLAGS) -c $$< -o $$@
+endef
+$(foreach k,$(KERNELS),$(eval $(call KERNEL_RULE,$k)))
+
 $B/%.cpp.o: %.cpp $B/flags
 	@mkdir -p $(@D); echo "CXX  $<"
 	$Q$(CXX) $(CPPFLAGS) $(CXXFLAGS) -c $< -o $@
@@ -168,7 +181,7 @@ $B/links: TELL = $(CXX) $(LDFLAGS) $(LDLIBS) $(SRC) $(AIDS)
 $B/flags $B/links: FORCE
 	@mkdir -p $(@D); echo '$(subst ','\'',$(TELL))' | cmp -s - $@ || echo '$(subst ','\'',$(TELL))' > $@
 
--include $(patsubst %,$B/%.d,$(SRC:=) $(AIDS) sim/main.c) $(addsuffix .c.d,$(TESTS) $(LONG) $(BENCH) $(FUZZERS))
+-include $(OBJ:.o=.d) $(patsubst %,$B/%.d,$(AIDS) sim/main.c) $(addsuffix .c.d,$(TESTS) $(LONG) $(BENCH) $(FUZZERS))
 -include $(PLUG:.so=.d) $(patsubst %.o,%.d,$(MODEL) $(OFFICE) $(CAR) $(GLASS) $(COURT) $(LAYER)) $(PLAIN:=.d) $(X87_PLAIN:=_387.d)
 
 # What is missing is installed for check and demo, which set a machine up; else it is named.
@@ -228,6 +241,14 @@ bench-lights bench-brdf bench-texture bench-sky: bench-%:
 	$Q$(MAKE) build/$(KIND)-1/tests/bench/bench_$* WIDTH=1
 	@{ echo "# $$(git describe --always --dirty 2>/dev/null) $(CC) $(OPT)"; \
 	  build/$(KIND)-4/tests/bench/bench_$* build/$(KIND)-1/tests/bench/bench_$*; } | tee -a build/bench.log
+
+## bench-effects: instructions of a run where effects are off, beside a build that does not have them
+OFF := daylight mirrors textures tables
+bench-effects:
+	$Q$(MAKE) all WIDTH=4
+	$Q$(MAKE) all WIDTH=4 WITHOUT="$(OFF)"
+	@{ echo "# $$(git describe --always --dirty 2>/dev/null) $(CC) $(OPT)"; \
+	  tests/bench/effects build/$(KIND)-4 build/$(KIND)-without-4; } | tee -a build/bench.log
 
 ## bench-hall: seconds that 1,000 lamps in a hall cost, beside 10; appended to build/bench.log
 bench-hall:
@@ -294,4 +315,4 @@ clean: ; $Qrm -rf build
 ## help: this list
 help:
 	@sed -n 's/^## \([a-z, -]*\): /\1\t/p' $(MAKEFILE_LIST) | awk -F'\t' '{ printf "  make %-22s %s\n", $$1, $$2 }'
-	@sed -n 's/^#   \([A-Z]*=[1c].*\)/  \1/p' $(MAKEFILE_LIST)
+	@sed -n 's/^#   \([A-Z]*=[1c"].*\)/  \1/p' $(MAKEFILE_LIST)

@@ -10,12 +10,13 @@ static vrgb join(vrgb a, vrgb b) { return vadd(a, b); } /* of disjoint lanes, ze
 
 static bool has_holes(const material *m)
 {
-    return m->look.openness > 0.0f || (m->textures && m->textures->alpha != ALPHA_OPAQUE);
+    return HAS_MIRRORS &&
+           (m->look.openness > 0.0f || (has_textures(m) && m->textures->alpha != ALPHA_OPAQUE));
 }
 
 static vfloat openness_of(const material *m, const vshading *s)
 {
-    return m->textures ? s->look.openness : vsplat(m->look.openness);
+    return has_textures(m) ? s->look.openness : vsplat(m->look.openness);
 }
 
 /* As often as there is a hole the path goes on through it. */
@@ -78,7 +79,7 @@ static vrgb mirrored_one(const material *m, const vshading *s, vmask active)
 
 static vrgb emission_one(const material *m, const vshading *s, vmask active)
 {
-    vrgb glow = m->textures ? s->look.emission : vspread(m->look.emission);
+    vrgb glow = has_textures(m) ? s->look.emission : vspread(m->look.emission);
     if (has_holes(m))
         glow = vscale(glow, 1.0f - openness_of(m, s));
     return vkeep3(active, glow);

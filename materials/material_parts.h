@@ -2,18 +2,21 @@
 #ifndef MATERIALS_MATERIAL_PARTS_H
 #define MATERIALS_MATERIAL_PARTS_H
 
+#include "core/without.h"
 #include "materials/material.h"
+
+static inline bool has_textures(const material *m) { return HAS_TEXTURES && m->textures; }
 
 /* A field of the look at each point: as textures make it, or the constant. */
 static inline vrgb look_color(const material *m, const vshading *s)
 {
-    return m->textures ? s->look.color : vspread(m->look.color);
+    return has_textures(m) ? s->look.color : vspread(m->look.color);
 }
 
 /* All of it. */
 static inline vlook look_of(const material *m, const vshading *s)
 {
-    return m->textures ? s->look : look_plain(m);
+    return has_textures(m) ? s->look : look_plain(m);
 }
 
 /* Whether each channel is in [0, 1]; whether extra's fields are in their ranges: else false with

@@ -30,7 +30,7 @@ static const phong *as_phong(const material *m) { return (const phong *)(const v
 
 static vrgb specular_of(const material *m, const vshading *s)
 {
-    return m->textures ? s->look.specular : vspread(m->look.specular);
+    return has_textures(m) ? s->look.specular : vspread(m->look.specular);
 }
 
 static vfloat sum_of(vrgb a) { return a.x + a.y + a.z; }

@@ -2,6 +2,7 @@
 #include "sim/direct.h"
 
 #include "core/color.h"
+#include "core/without.h"
 #include "sim/shadow.h"
 
 #include <float.h>
@@ -119,7 +120,7 @@ static void end_picks(const scene *s, direct_scratch *w, int packets, ray_hint h
         shadow_trace(s, w->rays, w->asked, w->spare, packets, hint, w->blocked, w->passed);
     for (int k = 0; k < packets; k++) {
         vmask blocked = w->asked[k] & w->blocked[k];
-        if (s->hollow)
+        if (HAS_MIRRORS && s->hollow)
             take_passed(&w->passed[k], w->asked[k], &out[k]);
         out[k].e = vkeep3(~blocked, out[k].e);
     }

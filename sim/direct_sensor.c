@@ -2,6 +2,7 @@
 #include "sim/direct_sensor.h"
 
 #include "core/color.h"
+#include "core/without.h"
 #include "sim/direct_parts.h"
 
 #include <string.h>
@@ -160,7 +161,7 @@ static vfloat tinted(const direct_sensor *w, int k, vfloat e)
 vfloat direct_arrives(const direct_sensor *w, int k, vfloat e)
 {
     vfloat open = vkeep(~(w->asked[k] & w->blocked[k]), e);
-    return w->s->hollow ? tinted(w, k, open) : open;
+    return HAS_MIRRORS && w->s->hollow ? tinted(w, k, open) : open;
 }
 
 vmask direct_sensor_sum(direct_sensor *w, const vsurface *at, vmask active, uint32_t first,

@@ -47,19 +47,6 @@ static bool has_opening(const scene *s, int l)
     return s->light_info[l].web && light_has_extent(s->lights[l]) && !is_dark(s->lights[l]);
 }
 
-static bool is_grey(vec3 c) { return c.x == c.y && c.x == c.z; }
-
-static bool surfaces_are_colored(const scene *s)
-{
-    for (int i = 0; i < s->material_count; i++) {
-        const scene_material *m = &s->material_info[i];
-        if (m->used && !(is_grey(m->reflectance) && is_grey(m->transmittance) &&
-                         is_grey(m->emission) && is_grey(s->materials[i]->absorption)))
-            return true;
-    }
-    return false;
-}
-
 /* What the materials of surfaces call for. Where light is not followed on from surfaces (`back`),
  * they count by what they let through and by what they give off. */
 static void add_materials(const scene *s, bool back, effects *all)
@@ -110,7 +97,7 @@ effects effects_of_grids(const scene *s, bool direct_only, bool outside)
     on[EFFECT_INTERREFLECTION] = back;
     if (lit)
         add_materials(s, back, &all);
-    on[EFFECT_COLOR] = s->lights_differ || (lit && surfaces_are_colored(s));
+    on[EFFECT_COLOR] = lit && scene_colored_by(s);
     for (int i = 0; i < s->set_count; i++)
         on[EFFECT_MANY_LIGHTS] |= s->sets[i].tree && (back || s->glows);
     return all;

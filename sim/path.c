@@ -16,35 +16,6 @@ static const float surest_survival = 0.995f;
  * has a thousandth of the hemisphere. */
 static const float wide_spread = 0.03f;
 
-/* Whether the paths' own rays find light. */
-static bool finds_light(const scene *s)
-{
-    return s->glows || s->narrow || s->hollow || s->sky_count > 0 || s->sun_count > 0;
-}
-
-path_tracer *path_tracer_new(arena *a, const scene *s, lux_error *err)
-{
-    path_tracer *t = arena_new(a, path_tracer, err);
-    if (!t)
-        return NULL;
-    t->s      = s;
-    t->fields = s->textured        ? FIELDS
-                : s->mirror_images ? FARTHER
-                : finds_light(s)   ? BASE
-                                   : PLAIN_FIELDS;
-    t->direct = direct_scratch_new(a, err);
-    t->shown  = lamps_that_show(a, s, err);
-    if (!t->direct || !t->shown.lamps)
-        return NULL;
-    if (t->fields == PLAIN_FIELDS)
-        return t;
-    t->list  = arena_array(a, int32_t, (size_t)t->shown.count + 1, err);
-    t->boxes = lamp_boxes_new(a, s, &t->shown, err);
-    return t->list && t->boxes ? t : NULL;
-}
-
-int64_t path_rays(const path_tracer *t) { return t->ray_count + direct_rays(t->direct); }
-
 /* Keeps the paths of `goes` of packet k, behind those kept before; they move down in place. */
 static int keep(path_tracer *t, int k, vmask goes, int kept)
 {
@@ -53,7 +24,7 @@ static int keep(path_tracer *t, int k, vmask goes, int kept)
         t->id[kept]    = t->id[from];
         t->state[kept] = t->state[from];
         t->image[kept] = t->image[from];
-        for (int f = 0; f < t->fields; f++)
+        for (int f = FIRST_FIELD; f < t->fields; f++)
             t->carried[f][kept] = t->carried[f][from];
     }
     return kept;
@@ -82,7 +53,7 @@ vmask path_in_turn(const path_tracer *t, int k, int which, uint32_t turns)
 /* Of a place. Lights have numbers of their own only where they need them. */
 static void draw_numbers(path_tracer *t)
 {
-    bool own = t->s->extended || t->s->emitter_count > 0 || t->s->narrow;
+    bool own = t->s->extended || t->s->emitter_count > 0 || has_narrow(t->s);
     for (int k = 0; k < packets_of(t); k++) {
         t->sample[k]       = path_numbers(t, k, 0);
         t->light_sample[k] = own ? path_numbers(t, k, (uint32_t)OF_LIGHT) : t->sample[k];
@@ -114,9 +85,9 @@ static void draw_first_directions(path_tracer *t)
             store3(t, LEFT, k, t->at[k].position);
             store3(t, SIDE, k, t->at[k].normal);
         }
-        if (t->patches)
+        if (has_patches(t))
             store(t, ONTO, k, vsplat(0.0f));
-        if (t->s->mirror_images) {
+        if (has_mirror_images(t->s)) {
             vmask round = quantity_is_round(t->o->quantity) ? ALL_LANES : (vmask){ 0 };
             path_set_base(t, k, ALL_LANES, true, t->at[k].position, t->at[k].normal, round,
                           load(t, PDF, k));
@@ -147,7 +118,7 @@ static void leave(path_tracer *t, int k, const vscatter *next)
     vfloat of_pdf  = vselect(single, vselect(bent, already, sole), next->pdf);
     vfloat of_lamp = vselect(single, of_pdf, vselect(narrow, next->pdf, already));
     or_state(t, k, left & single & bent, BENT);
-    if (t->patches) {
+    if (has_patches(t)) {
         store(t, ONTO, k, vselect(left, path_onto(t, k, left), load(t, ONTO, k)));
         store3(t, FARTHER, k, vselect3(left, load3(t, LEFT, k), load3(t, FARTHER, k)));
     }
@@ -180,7 +151,7 @@ static void leave_to_maps(path_tracer *t, int k, const vscatter *next)
     vmask single = t->active[k] & ~next->straight & (next->pdf == INFINITY);
     vmask plate  = next->bent & ((t->does[k] & DOES_LENS) == 0);
     vmask images = (vmask){ 0 };
-    if (t->s->mirror_images)
+    if (has_mirror_images(t->s))
         images = images_of(t, k) > 0;
     vmask mapped  = state_has(t, k, WIDE) & ~state_has(t, k, GLOSSY);
     vmask focused = single & ~plate & ~images & mapped;
@@ -215,20 +186,20 @@ static vmask next_direction(path_tracer *t, int k, vscatter *next)
     const vsample4 *u = &t->sample[k];
     vmask goes = materials_scatter(s->materials, t->at[k].material, &t->shading[k], u->x, u->y,
                                    u->z, t->active[k], next);
-    if (s->smooth || s->textured)
+    if (has_smooth(s) || has_textures(s))
         goes = goes & (next->straight | on_one_side(&t->shading[k], &next->wi));
     if (!t->o->bounce || (t->o->bounded && t->depth > (uint32_t)t->o->bounces))
         goes = goes & next->straight;
-    vrgb worth = vmul(load3(t, WORTH, k), next->weight);
+    vrgb worth = as_known(vmul(worth_of(t, k), next->weight));
 
     /* Roulette: a path goes on as often as it is worth going. Straight on it ends by itself. */
-    vfloat most     = vmax(worth.x, vmax(worth.y, worth.z));
+    vfloat most     = COLOR ? vmax(worth.x, vmax(worth.y, worth.z)) : worth.x;
     vfloat surest   = vselect(next->straight, vsplat(1.0f), vsplat(surest_survival));
     vfloat survival = vmin(most, surest);
     if (t->depth < (uint32_t)t->o->roulette_from)
         survival = vsplat(1.0f);
     goes = goes & (most > 0.0f) & (u->w < survival);
-    store3(t, WORTH, k, vscale(worth, 1.0f / survival));
+    store_worth(t, k, vscale(worth, 1.0f / survival));
     return goes;
 }
 
@@ -241,7 +212,7 @@ static void draw_directions(path_tracer *t)
         if (t->fields > PLAIN_FIELDS)
             leave(t, k, &next);
         note_scattered(t, k, &next);
-        if (t->s->mirror_images)
+        if (has_mirror_images(t->s))
             leave_base(t, k, &next);
         if (t->focused)
             leave_to_maps(t, k, &next);
@@ -293,13 +264,13 @@ static void arrive(path_tracer *t, int k)
     }
     scene_shade(s, &hit, &way, width, active, &t->at[k], &t->shading[k]);
     t->active[k] = t->asks[k] = active;
-    if (!s->narrow && !s->hollow && !s->exteriors)
+    if (!has_narrow(s) && !has_hollow(s) && !has_exteriors(s))
         return;
     vint does  = vgather_int(s->material_does, vkeep_int(active, t->at[k].material));
     t->does[k] = does;
-    if (s->exteriors)
+    if (has_exteriors(s))
         note_outdoors(t, k, does);
-    if (!s->narrow)
+    if (!has_narrow(s))
         return;
     t->asks[k]   = active & ((does & DOES_ASK) != 0);
     t->around[k] = active & ((does & DOES_AROUND) != 0);
@@ -317,7 +288,7 @@ static void go_on(path_tracer *t)
     world_first_hit(t->s->world, t->rays, t->active, n, RAYS_INCOHERENT, t->hits);
     if (t->fields > PLAIN_FIELDS && t->shown.count > 0)
         path_add_lamps_met(t);
-    if (t->s->sky_count > 0)
+    if (has_skies(t->s))
         path_add_sky(t);
     for (int k = 0; k < n; k++) {
         vmask met = t->active[k] & (t->hits[k].instance >= 0);
@@ -362,24 +333,12 @@ static void begin_eye(path_tracer *t)
     }
 }
 
-static void begin(path_tracer *t, path_bundle *b, const path_options *o)
+static void begin(path_tracer *t)
 {
-    t->b     = b;
-    t->o     = o;
-    t->alive = b->count;
-    memset(b->direct, 0, sizeof b->direct);
-    memset(b->indirect, 0, sizeof b->indirect);
-    memset(b->met, 0, sizeof b->met);
-    if (b->mirrored)
-        memset(b->mirrored, 0, sizeof *b->mirrored);
-    if (b->smoothed)
-        memset(b->smoothed, 0, PATHS * sizeof *b->smoothed);
-    if (b->outside)
-        memset(b->outside, 0, sizeof *b->outside);
-    if (b->daylight)
-        memset(b->daylight, 0, sizeof *b->daylight);
-    if (b->layers)
-        memset(b->layers, 0, 2 * (size_t)t->s->group_count * sizeof *b->layers);
+    const path_bundle *b  = t->b;
+    const path_options *o = t->o;
+    t->depth              = 0;
+    t->alive              = b->count;
     for (int i = 0; i < PATHS; i++) {
         t->id[i]    = i < b->count ? i : 0; /* those behind the last are read, and dropped */
         t->state[i] = o->eye ? 0 : WIDE;
@@ -400,21 +359,21 @@ static bool goes_on(const path_tracer *t, int times)
 static void ask(path_tracer *t, bool beginning)
 {
     path_ask_lights(t, beginning);
-    if (t->s->mirror_images && t->o->bounce && goes_on(t, 1))
+    if (has_mirror_images(t->s) && t->o->bounce && goes_on(t, 1))
         path_ask_images(t, beginning);
-    if (t->s->sky_count > 0)
+    if (has_skies(t->s))
         path_ask_sky(t, beginning);
-    if (t->s->sun_count > 0 && (!beginning || t->o->lamps))
+    if (has_suns(t->s) && (!beginning || t->o->lamps))
         path_ask_suns(t, beginning);
-    if (t->patches && t->o->bounce && goes_on(t, 1))
+    if (has_patches(t) && t->o->bounce && goes_on(t, 1))
         path_ask_patches(t, beginning);
 }
 
-void path_trace(path_tracer *t, path_bundle *b, const path_options *o)
+void path_follow(path_tracer *t)
 {
-    const scene *s = t->s;
-    t->depth       = 0;
-    begin(t, b, o);
+    const scene *s        = t->s;
+    const path_options *o = t->o;
+    begin(t);
     if (o->eye) {
         begin_eye(t);
     } else {
@@ -422,7 +381,7 @@ void path_trace(path_tracer *t, path_bundle *b, const path_options *o)
         draw_numbers(t);
         ask(t, true);
         t->depth++;
-        if (!o->bounce && !s->glows && s->sky_count == 0)
+        if (!o->bounce && !s->glows && !has_skies(s))
             return;
         draw_first_directions(t);
     }
@@ -431,7 +390,7 @@ void path_trace(path_tracer *t, path_bundle *b, const path_options *o)
         path_add_glow(t);
         if (first)
             path_note_met(t);
-        if (!o->bounce && !s->hollow)
+        if (!o->bounce && !has_hollow(s))
             return;
         draw_numbers(t);
         if ((t->indirect || t->focused) && o->bounce)

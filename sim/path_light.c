@@ -16,7 +16,7 @@ static void add_lane(path_tracer *t, int id, const float of[3], bool straight, b
     int groups       = t->s->group_count;
     bool is_straight = straight && !l->ground;
     path_sums *sums  = is_straight ? &b->direct : &b->indirect;
-    for (int c = 0; c < 3; c++) {
+    for (int c = 0; c < CHANNELS; c++) {
         (*sums)[c][id] += l->dimming * of[c];
         if (b->mirrored && l->mirrored)
             (*b->mirrored)[c][id] += l->dimming * of[c];
@@ -37,8 +37,8 @@ void path_add(path_tracer *t, int k, vmask lanes, vmask straight, vrgb e, const 
     float of[3][LANES];
     vmask outside = state_has(t, k, OUTDOORS);
     vstore(of[0], e.x);
-    vstore(of[1], e.y);
-    vstore(of[2], e.z);
+    vstore(of[1], COLOR ? e.y : e.x);
+    vstore(of[2], COLOR ? e.z : e.x);
     for (int bits = vbits(lanes & living(t, k)); bits; bits &= bits - 1) {
         int i            = __builtin_ctz((unsigned)bits);
         const float v[3] = { of[0][i], of[1][i], of[2][i] };
@@ -74,7 +74,7 @@ static void add(path_tracer *t, vmask straight, vmask mirrored, int k, vrgb e, v
 /* Light that a ray has met: which it has come to by mirrors alone. */
 static vmask by_mirrors(const path_tracer *t, int k)
 {
-    if (!t->s->mirror_images)
+    if (!has_mirror_images(t->s))
         return (vmask){ 0 };
     return state_has(t, k, NOWHERE) & (images_of(t, k) > 0);
 }
@@ -91,10 +91,10 @@ vrgb path_worth(const path_tracer *t, int k, const vvec3 *wi, bool beginning, vm
         return (vrgb){ response, response, response };
     }
     vrgb f   = materials_reflect(s->materials, t->at[k].material, &t->shading[k], wi, active, pdf);
-    vrgb all = vscale(vmul(load3(t, WORTH, k), f), first_of(t, k));
+    vrgb all = as_known(vscale(vmul(worth_of(t, k), f), first_of(t, k)));
     if (pdf && t->indirect)
         *pdf = vkeep(~t->ends[k], *pdf);
-    if (s->smooth || s->textured)
+    if (has_smooth(s) || has_textures(s))
         all = vkeep3(on_one_side(&t->shading[k], wi), all);
     return vkeep3(active, all);
 }
@@ -115,11 +115,12 @@ static void add_lights(path_tracer *t, int k, bool beginning)
     const direct_pick *l = &t->lights[k];
     vmask active         = t->asks[k] & (l->light >= 0);
     vmask found          = active & (l->light >= s->light_count);
-    if (s->narrow && !beginning)
+    if (has_narrow(s) && !beginning)
         found = found | (active & ((t->does[k] & DOES_NARROW) != 0));
     vfloat pdf;
-    bool both = vany(found);
-    vrgb all  = vmul(path_worth(t, k, &l->wi, beginning, active, both ? &pdf : NULL), l->e);
+    bool both  = vany(found);
+    vrgb worth = path_worth(t, k, &l->wi, beginning, active, both ? &pdf : NULL);
+    vrgb all   = as_known(vmul(worth, l->e));
     if (both)
         all = vscale(all, vselect(found, power_heuristic(l->pdf, pdf), vsplat(1.0f)));
     add(t, beginning ? ALL_LANES : (vmask){ 0 }, (vmask){ 0 }, k, vkeep3(active, all), l->light);
@@ -150,7 +151,7 @@ void path_ask_lights(path_tracer *t, bool beginning)
                            .packets    = n < DIRECT_PACKETS ? n : DIRECT_PACKETS,
                            .glow_alone = !lamps,
                            .all_around = beginning && quantity_is_round(t->o->quantity),
-                           .around     = !beginning && s->narrow ? t->around + first : NULL };
+                           .around     = !beginning && has_narrow(s) ? t->around + first : NULL };
         for (int l = 0; l < (all ? scene_lamp_count(s) : 1); l++) {
             if (all)
                 direct_lamp(s, t->direct, l, &b, t->lights + first);
@@ -221,9 +222,9 @@ void path_add_glow(path_tracer *t)
         vmask asked  = bright & (pdf < INFINITY);
         vfloat other = vany(asked) ? glow_pdf(t, k, asked) : (vfloat){ 0 };
         vfloat share = power_heuristic(pdf, vkeep(asked, other)) * first_of(t, k);
-        if (s->mirror_images && t->o->bounce)
+        if (has_mirror_images(s) && t->o->bounce)
             share = share * path_image_share(t, k, -1, emitters_met(t, k, bright), bright);
-        vrgb all = vscale(vmul(load3(t, WORTH, k), glow), share);
+        vrgb all = vscale(vmul(worth_of(t, k), as_known(glow)), share);
         add(t, ~state_has(t, k, SCATTERED), by_mirrors(t, k), k, vkeep3(bright, all),
             vsplat_int(s->light_count));
     }
@@ -284,9 +285,9 @@ static void add_lamp_met(path_tracer *t, int k, int l, vmask looking)
         return;
     vrgb radiance = vmul(hit.radiance, vselect3(asked, passed.share, vspread((vec3){ 1, 1, 1 })));
     vfloat share  = lamp_share(t, k, l, seen);
-    if (t->s->mirror_images && t->o->bounce)
+    if (has_mirror_images(t->s) && t->o->bounce)
         share = share * path_image_share(t, k, l, vsplat_int(-1), seen);
-    vrgb all = vscale(vmul(load3(t, WORTH, k), radiance), share);
+    vrgb all = vscale(vmul(worth_of(t, k), as_known(radiance)), share);
     add(t, ~state_has(t, k, SCATTERED), by_mirrors(t, k), k, vkeep3(seen, all), vsplat_int(l));
 }
 
@@ -325,9 +326,9 @@ void path_note_met(path_tracer *t)
         vint which  = t->at[k].material;
         vfloat back = vrgb_luminance(materials_reflectance(t->s->materials, which, t->active[k]));
         vmask gives = t->active[k] & (back > 0.0f);
-        if (t->s->narrow || t->s->hollow)
+        if (has_narrow(t->s) || has_hollow(t->s))
             gives = gives | (t->active[k] & ((t->does[k] & (DOES_NARROW | DOES_HOLLOW)) != 0));
-        if (t->s->mirror_images) /* what images give by a plane mirror is all that it gives */
+        if (has_mirror_images(t->s)) /* what images give by a plane mirror is all that it gives */
             gives = gives & ~is_mirror_alone(t, k);
         for (int bits = vbits(gives); bits; bits &= bits - 1)
             t->b->met[t->id[k * LANES + __builtin_ctz((unsigned)bits)]] = 1.0f;

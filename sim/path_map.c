@@ -8,17 +8,10 @@
 #include "core/color.h"
 #include "sim/path_parts.h"
 
-void path_use_maps(path_tracer *t, const illumination_map *indirect,
-                   const illumination_map *focused)
-{
-    t->indirect = indirect;
-    t->focused  = focused;
-}
-
 static vmask matt_lanes(const path_tracer *t, int k)
 {
     const scene *s = t->s;
-    if (!s->narrow && !s->hollow && !s->exteriors)
+    if (!has_narrow(s) && !has_hollow(s) && !has_exteriors(s))
         return t->active[k];
     vint kind = t->does[k] & (DOES_ASK | DOES_NARROW | DOES_AROUND | DOES_HOLLOW);
     return t->active[k] & (kind == DOES_ASK);
@@ -60,7 +53,7 @@ static vmask look(path_tracer *t, const illumination_map *m, int k, vmask lanes)
     vmask front    = t->shading[k].front;
     vrgb albedo    = materials_albedo(s->materials, t->at[k].material, &t->shading[k], lanes);
     vfloat share   = first_of(t, k) * 0.318309886f;
-    vrgb back      = vscale(vmul(load3(t, WORTH, k), albedo), share);
+    vrgb back      = vscale(vmul(worth_of(t, k), albedo), share);
     vrgb fine, coarse;
     vmask known = illumination_map_look(m, &hit, front, set, -1, lanes, &fine, &coarse);
     if (!vany(known))

@@ -126,7 +126,7 @@ static void meet(const path_tracer *t, int i, const vhit *hit, bent_ways *w)
     vrgb share   = { 0 };
     if (vany(mirror))
         share = materials_mirrored(s->materials, at.material, &shading, mirror);
-    if (s->hollow && vany(passes))
+    if (has_hollow(s) && vany(passes))
         share = vadd(share, materials_through(s->materials, at.material, &shading, passes));
     w->share[i] = vselect3(met, vmul(w->share[i], share), w->share[i]);
 
@@ -207,7 +207,7 @@ static void take(path_tracer *t, int k, const bent_ways *w, int i, vfloat chance
     vmask both   = lit & (l->pdf < INFINITY) & (found ? ALL_LANES : (vmask){ 0 });
     vfloat share = vselect(both, power_heuristic(asked, pdf), vsplat(1.0f));
     vrgb e       = vmul(l->e, w->share[i]);
-    if (s->hollow)
+    if (has_hollow(s))
         e = vmul(e, t->passed[k].share);
     e          = vmul(vscale(worth, share * (float)turns / chance), e);
     vmask left = lit;
@@ -297,7 +297,7 @@ static void ask(path_tracer *t, mirror_lights which, bool beginning)
                            .packets    = n,
                            .unshadowed = true,
                            .all_around = beginning && quantity_is_round(t->o->quantity),
-                           .around     = !beginning && s->narrow ? t->around + first : NULL };
+                           .around     = !beginning && has_narrow(s) ? t->around + first : NULL };
         if (which == MIRROR_SUNS)
             pick_sun(t, &b, first);
         else
@@ -314,6 +314,6 @@ void path_ask_images(path_tracer *t, bool beginning)
 {
     if (scene_lamp_count(t->s) + t->s->emitter_count > 0)
         ask(t, MIRROR_LAMPS, beginning);
-    if (t->s->sun_count > 0)
+    if (has_suns(t->s))
         ask(t, MIRROR_SUNS, beginning);
 }

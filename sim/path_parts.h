@@ -1,13 +1,17 @@
-/* sim/path_parts.h -- what the files of path.h share: path.c moves the paths, path_light.c adds up
- * the light of lamps and glowing surfaces that they find, path_sky.c that of skies, path_sun.c that
- * of suns and of the patches that those light through portals.
+/* sim/path_parts.h -- what the files of path.h share: path_tracer.c chooses the kernel, and of each
+ * (path_kernel.h) path.c moves the paths, path_light.c adds up the light of lamps and glowing
+ * surfaces that they find, path_sky.c that of skies, path_sun.c that of suns, path_patch.c that of
+ * the patches that those light through portals, path_mirror.c what comes by way of plane mirrors,
+ * path_map.c what illumination maps know.
  */
 #ifndef SIM_PATH_PARTS_H
 #define SIM_PATH_PARTS_H
 
+#include "core/without.h"
 #include "sim/direct.h"
 #include "sim/lamp_boxes.h"
 #include "sim/path.h"
+#include "sim/path_kernel.h"
 #include "sim/shadow.h"
 
 enum { PACKETS = PATHS / LANES };
@@ -15,10 +19,10 @@ enum { PACKETS = PATHS / LANES };
 /* What a living path carries; vectors are three fields. Those that a scene does not need come last
  * and are left out. */
 enum {
-    PLACE        = 0,            /* m: where its ray begins */
+    WORTH        = 0,            /* by channel, 1 at the beginning; of one channel the last */
+    PLACE        = WORTH + 3,    /* m: where its ray begins */
     WAY          = PLACE + 3,    /* unit: the ray's direction */
-    WORTH        = WAY + 3,      /* by channel, 1 at the beginning */
-    PLAIN_FIELDS = WORTH + 3,    /* the next where rays find light: */
+    PLAIN_FIELDS = WAY + 3,      /* the next where rays find light: */
     LEFT         = PLAIN_FIELDS, /* m: where the path was last, straight passages apart */
     SIDE         = LEFT + 3,     /* the normal there */
     PDF = SIDE + 3, /* 1/sr, with which it left in its direction: what it then finds that glows
@@ -37,6 +41,9 @@ enum {
 };
 #define ALREADY (-1.0f)
 
+/* Those of this kernel. */
+enum { CHANNELS = COLOR ? 3 : 1, FIRST_FIELD = WORTH + 3 - CHANNELS };
+
 /* Of a living path, bits. */
 enum {
     SCATTERED = 1,   /* it has left its beginning other than straight on */
@@ -51,8 +58,10 @@ enum {
     GLOSSY    = 512, /* a direction of it was last drawn from many where no map is asked */
 };
 
+/* Alike in all kernels. */
 struct path_tracer {
     const scene *s;
+    int kernel; /* by which paths are followed: bits of what that leaves out */
     const path_options *o;
     direct_scratch *direct;
     seen_lamps shown;                           /* lamps that rays may find */
@@ -94,6 +103,20 @@ struct path_tracer {
     vint spare[PACKETS];
 };
 
+/* What the scene has of what this kernel knows. */
+static inline bool has_narrow(const scene *s) { return SURFACES && HAS_MIRRORS && s->narrow; }
+static inline bool has_hollow(const scene *s) { return SURFACES && HAS_MIRRORS && s->hollow; }
+static inline bool has_smooth(const scene *s) { return SURFACES && s->smooth; }
+static inline bool has_textures(const scene *s) { return SURFACES && HAS_TEXTURES && s->textured; }
+static inline bool has_exteriors(const scene *s) { return SURFACES && s->exteriors; }
+static inline bool has_mirror_images(const scene *s)
+{
+    return SURFACES && HAS_MIRRORS && s->mirror_images;
+}
+static inline bool has_skies(const scene *s) { return HAS_DAYLIGHT && s->sky_count > 0; }
+static inline bool has_suns(const scene *s) { return HAS_DAYLIGHT && s->sun_count > 0; }
+static inline bool has_patches(const path_tracer *t) { return HAS_DAYLIGHT && t->patches; }
+
 static inline int packets_of(const path_tracer *t) { return (t->alive + LANES - 1) / LANES; }
 
 static inline vmask living(const path_tracer *t, int k)
@@ -123,6 +146,23 @@ static inline void store3(path_tracer *t, int field, int k, vvec3 v)
     store(t, field + 2, k, v.z);
 }
 
+/* The channels of this kernel: of a grey scene the first stands for all. */
+static inline vrgb as_known(vrgb all) { return COLOR ? all : (vrgb){ all.x, all.x, all.x }; }
+
+static inline vrgb worth_of(const path_tracer *t, int k)
+{
+    vfloat last = load(t, WORTH + 2, k);
+    return COLOR ? load3(t, WORTH, k) : (vrgb){ last, last, last };
+}
+
+static inline void store_worth(path_tracer *t, int k, vrgb worth)
+{
+    if (COLOR)
+        store3(t, WORTH, k, worth);
+    else
+        store(t, WORTH + 2, k, worth.x);
+}
+
 static inline vmask state_has(const path_tracer *t, int k, int bit)
 {
     return (vload_int(t->state + k * LANES) & bit) != 0;
@@ -147,6 +187,9 @@ static inline vfloat first_of(const path_tracer *t, int k)
 {
     return vgather(t->first, vload_int(t->id + k * LANES));
 }
+
+/* Follows the paths of t->b from beginning to end. */
+void path_follow(path_tracer *t);
 
 /* Random numbers of packet k where it stands, besides those of others that `purpose` tells apart.
  */

@@ -20,13 +20,6 @@
 #include "sim/sensor.h"
 #include "sim/shading.h"
 
-void path_use_patches(path_tracer *t, const sun_patches *patches)
-{
-    t->patches = patches;
-    if (patches && t->fields < WIDTH)
-        t->fields = WIDTH;
-}
-
 static vfloat squared(vfloat a) { return a * a; }
 
 /* The cosine, with its sign, of a way that is not of unit length. */
@@ -42,7 +35,7 @@ vfloat path_onto(const path_tracer *t, int k, vmask active)
 {
     vfloat pdf = load(t, PDF, k);
     active     = active & (pdf > 0.0f) & (pdf < INFINITY);
-    if (t->s->hollow)
+    if (has_hollow(t->s))
         active = active & ((t->does[k] & DOES_HOLLOW) == 0);
     vvec3 way        = vsub(t->at[k].position, load3(t, LEFT, k));
     vfloat distance2 = vdot(way, way);
@@ -200,7 +193,7 @@ static void take(path_tracer *t, int k, const path_layer *of)
 {
     vmask open = t->asked[k] & ~t->blocked[k];
     vrgb found = t->lights[k].e;
-    if (t->s->hollow) {
+    if (has_hollow(t->s)) {
         open  = open & ~t->passed[k].solids;
         found = vmul(found, t->passed[k].share);
     }

@@ -53,7 +53,7 @@ static void add_skies(path_tracer *t, int k, const vvec3 *wi, vrgb worth, vmask 
             continue;
         vrgb radiance = sky_radiance(of->sky, wi, here);
         path_layer to = { of->group, 1.0f, true, of->ground && !t->o->eye };
-        path_add(t, k, here, straight, vmul(worth, radiance), &to);
+        path_add(t, k, here, straight, as_known(vmul(worth, radiance)), &to);
     }
 }
 
@@ -79,7 +79,7 @@ static void take(path_tracer *t, int k, bool beginning)
         return;
     vrgb worth   = path_worth(t, k, &l->wi, beginning, lit, &pdf);
     vfloat share = power_heuristic(of_sky, pdf);
-    if (t->s->hollow) {
+    if (has_hollow(t->s)) {
         share = vselect(t->passed[k].solids, vsplat(1.0f), share);
         worth = vmul(worth, t->passed[k].share);
     }
@@ -120,7 +120,7 @@ void path_add_sky(path_tracer *t)
         vmask asked  = active & (pdf < INFINITY);
         vfloat other = vany(asked) ? asked_pdf(t, k, asked) : (vfloat){ 0 };
         vfloat share = power_heuristic(pdf, vkeep(asked, other)) * first_of(t, k);
-        vrgb worth   = vkeep3(active, vscale(load3(t, WORTH, k), share));
+        vrgb worth   = vkeep3(active, vscale(worth_of(t, k), share));
         add_skies(t, k, &t->rays[k].direction, worth, ~state_has(t, k, SCATTERED), active);
     }
 }

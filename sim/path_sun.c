@@ -23,7 +23,7 @@ static vmask who_asks(const path_tracer *t, int k, int l, vfloat *count)
         return t->asks[k];
     light_sample(s->lights[l], &at.position, half, half, t->asks[k], &of);
     vmask in = portals_cross(s->portals, &at.position, &of.wi, t->asks[k]);
-    if (s->exteriors && t->depth > 0)
+    if (has_exteriors(s) && t->depth > 0)
         in = in | ((t->does[k] & DOES_EXTERIOR) != 0);
     *count = vselect(in, *count, vsplat((float)SELDOM));
     return t->asks[k] & (in | path_in_turn(t, k, l, SELDOM));
@@ -37,18 +37,18 @@ static void take(path_tracer *t, int k, int sun, bool beginning, vfloat count)
     if (!vany(lit & ((l->e.x > 0.0f) | (l->e.y > 0.0f) | (l->e.z > 0.0f))))
         return;
     bool extended = light_has_extent(t->s->lights[scene_lamp_count(t->s) + sun]);
-    bool narrow   = extended && t->s->narrow && !beginning;
+    bool narrow   = extended && has_narrow(t->s) && !beginning;
     vfloat pdf;
     vrgb worth = path_worth(t, k, &l->wi, beginning, lit, narrow ? &pdf : NULL);
     if (narrow) {
         vmask found = (t->does[k] & DOES_NARROW) != 0;
         count       = count * vselect(found, power_heuristic(l->pdf, pdf), vsplat(1.0f));
     }
-    if (t->patches && !beginning)
+    if (has_patches(t) && !beginning)
         count = count * path_patch_share(t, k, sun, &l->wi, lit);
     path_layer to = { info->group, info->dimming, true, false };
-    path_add(t, k, lit, beginning ? ALL_LANES : (vmask){ 0 }, vmul(vscale(worth, count), l->e),
-             &to);
+    path_add(t, k, lit, beginning ? ALL_LANES : (vmask){ 0 },
+             as_known(vmul(vscale(worth, count), l->e)), &to);
 }
 
 void path_ask_suns(path_tracer *t, bool beginning)
@@ -69,7 +69,7 @@ void path_ask_suns(path_tracer *t, bool beginning)
                                .u          = u,
                                .packets    = n,
                                .all_around = beginning && quantity_is_round(t->o->quantity),
-                               .around     = !beginning && s->narrow ? t->around + first : NULL };
+                               .around = !beginning && has_narrow(s) ? t->around + first : NULL };
             direct_lamp(s, t->direct, lamps + sun, &b, t->lights + first);
             for (int i = 0; i < n; i++)
                 take(t, first + i, sun, beginning, count[i]);

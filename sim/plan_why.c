@@ -261,9 +261,9 @@ static void tell_tints(const plan_facts *f, bool called, plan_effect *to)
 static void tell_color(const plan_facts *f, bool called, plan_effect *to)
 {
     if (called)
-        say(to, f->s->lights_differ ? "lamps differ in colour" : "surfaces are coloured");
+        say(to, "%s", scene_colored_by(f->s));
     else
-        say(to, "all surfaces are grey, all lamps of one colour");
+        say(to, "all surfaces and all light are grey");
 }
 
 /* ---- the rest -------------------------------------------------------------------------------- */

@@ -1,4 +1,5 @@
 /* sim/scene.c -- see scene.h. The order of construction; the parts are scene_*.c. */
+#include "core/without.h"
 #include "sim/scene_build.h"
 
 #include <string.h>
@@ -260,6 +261,23 @@ static void force_on(const scene_build *b, scene *s)
         info[l].clear = false;
 }
 
+/* Whether this build knows all that the scene calls for. */
+static bool build_can(const scene *s, lux_error *err)
+{
+    const char *lacks = NULL;
+    if (!HAS_DAYLIGHT && (s->sky_count > 0 || s->sun_count > 0))
+        lacks = "daylight";
+    if (!HAS_MIRRORS && (s->narrow || s->hollow || s->mirror_images))
+        lacks = "mirrors and glass";
+    if (!HAS_TEXTURES && s->textured)
+        lacks = "textures";
+    for (int i = 0; !HAS_TABLES && i < s->material_count; i++)
+        if (s->material_info[i].used && s->material_info[i].file)
+            lacks = "measured tables";
+    return !lacks || failed(err, ERR_ARGUMENT, "%s: calls for %s, which this build does without",
+                            s->study->path, lacks);
+}
+
 const scene *scene_new(arena *a, const study *from, const scene_options *o, notices *n,
                        lux_error *err)
 {
@@ -306,5 +324,6 @@ const scene *scene_new(arena *a, const study *from, const scene_options *o, noti
     if (!scene_find_ways(s, n, err))
         return NULL;
     force_on(&b, s);
-    return s;
+    s->grey = !scene_colored_by(s) && !(o->on >> EFFECT_COLOR & 1);
+    return build_can(s, err) ? s : NULL;
 }

@@ -166,6 +166,9 @@ typedef struct scene {
     bool solids;                  /* some of those are solids that refract, */
     bool narrow;                  /* some are not matt: rays find lamps by way of them */
 
+    bool grey; /* paths find the same in all three channels, and one is computed: all that is met,
+                  and all light, is grey to the bit */
+
     const mirrors *mirror_images; /* NULL: no plane mirror or pane that lamps or suns light */
     bool unshadowed, untinted;    /* as asked for: no shadow ray is traced; what lets light straight
                                      through lets all of it pass */
@@ -221,6 +224,10 @@ const scene *scene_new(arena *a, const study *s, const scene_options *o, notices
 
 /* Whether anything gives light at all. */
 bool scene_is_lit(const scene *s);
+
+/* In words, why the scene is to be computed in colour; NULL: all surfaces and all light are grey,
+ * to the bit. What pictures and measured tables hold is taken for coloured. */
+const char *scene_colored_by(const scene *s);
 
 /* Lamps that are no suns. */
 static inline int scene_lamp_count(const scene *s) { return s->light_count - s->sun_count; }

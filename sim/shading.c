@@ -1,6 +1,7 @@
 /* sim/shading.c -- see shading.h. */
 #include "sim/shading.h"
 
+#include "core/without.h"
 #include "materials/shading_normal.h"
 
 void scene_shade(const scene *s, const vhit *hit, const vvec3 *direction, vfloat width, vmask met,
@@ -15,7 +16,8 @@ void scene_shade(const scene *s, const vhit *hit, const vvec3 *direction, vfloat
     shading->flat     = at->normal;
     shading->front    = front;
     shading->distance = hit->distance;
-    if (!s->smooth && !s->textured)
+    bool textured     = HAS_TEXTURES && s->textured;
+    if (!s->smooth && !textured)
         return;
 
     vdetail detail;
@@ -24,6 +26,6 @@ void scene_shade(const scene *s, const vhit *hit, const vvec3 *direction, vfloat
         vvec3 n    = vselect3(front, detail.normal, vneg(detail.normal));
         shading->n = vnormal_keep_valid(wo, n, at->normal);
     }
-    if (s->textured)
+    if (textured)
         materials_look(s->materials, at->material, &detail, width, met, shading);
 }

@@ -3,6 +3,7 @@
 
 #include "core/color.h"
 #include "core/packet_math.h"
+#include "core/without.h"
 #include "sim/shading.h"
 
 enum { MOST_HITS = 8 /* at once */, MOST_ROUNDS = 64 };
@@ -115,7 +116,7 @@ static void let_all_pass(const scene *s, int packets, vmask *blocked, vpassed *p
 {
     for (int k = 0; k < packets; k++) {
         blocked[k] = (vmask){ 0 };
-        if (s->hollow)
+        if (HAS_MIRRORS && s->hollow)
             passed[k] = (vpassed){ .share = vspread((vec3){ 1, 1, 1 }) };
     }
 }
@@ -133,7 +134,7 @@ int64_t shadow_trace(const scene *s, const vray *rays, const vmask *asked, const
         return 0;
     }
     world_any_hit(s->world, rays, asked, s->owners ? spare : NULL, packets, hint, blocked);
-    for (int k = 0; s->hollow && k < packets; k++) {
+    for (int k = 0; HAS_MIRRORS && s->hollow && k < packets; k++) {
         vmask open = asked[k] & ~blocked[k];
         vint own   = s->owners ? spare[k] : vsplat_int(0);
         passed[k]  = (vpassed){ .share = vspread((vec3){ 1, 1, 1 }) };

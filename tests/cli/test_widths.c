@@ -103,6 +103,14 @@ TEST(the_office_is_the_same_at_every_width)
     assert_same_results(folder, widths, count, names);
 }
 
+/* Focused light may not get as sure as asked for, exit code 3: its files are there all the same. */
+static void run_to_files(const program_desc *d, program_result *r)
+{
+    program_run(d, r);
+    if (r->code != 0 && r->code != 3)
+        fail_msg("exits with %d: %s", r->code, r->err);
+}
+
 /* Runs grid and view of study.yaml with one and two threads, plain and layered, by one program. */
 static void run_threads(const char *folder, const char *program, int width)
 {
@@ -112,13 +120,12 @@ static void run_threads(const char *folder, const char *program, int width)
         const char *threads = i & 1 ? "2" : "1", *command = i & 4 ? "render" : "grid";
         char out[32];
         snprintf(out, sizeof out, "%d-%d-%d", width, i & 1, i >> 1 & 1);
-        program_expect(0,
-                       &(program_desc){ .program = program,
-                                        .folder  = folder,
-                                        .words   = { command, "study.yaml", "-o", out, "--threads",
-                                                     threads, "--accuracy", i & 4 ? "60%" : "10%",
-                                                     options[i >> 1 & 1], "--overwrite" } },
-                       &r);
+        run_to_files(&(program_desc){ .program = program,
+                                      .folder  = folder,
+                                      .words   = { command, "study.yaml", "-o", out, "--threads",
+                                                   threads, "--accuracy", i & 4 ? "60%" : "10%",
+                                                   options[i >> 1 & 1], "--overwrite" } },
+                     &r);
         program_free(&r);
     }
 }
@@ -298,13 +305,12 @@ TEST(images_focused_light_and_maps_are_the_same_at_every_width_and_on_every_thre
         for (int i = 0; i < 4; i++) {
             program_result r = { 0 };
             snprintf(out, sizeof out, "%d-%d-%d", width, i & 1, i >> 1);
-            program_expect(0,
-                           &(program_desc){ .program = program,
-                                            .folder  = l.folder,
-                                            .words = { "grid", "study.yaml", "-o", out, "--threads",
-                                                       i & 1 ? "2" : "1", "--accuracy", "20%",
+            run_to_files(&(program_desc){ .program = program,
+                                          .folder  = l.folder,
+                                          .words   = { "grid", "study.yaml", "-o", out, "--threads",
+                                                     i & 1 ? "2" : "1", "--accuracy", "20%",
                                                        "--transport", by[i >> 1] } },
-                           &r);
+                         &r);
             program_free(&r);
             for (int n = 0; n < 4; n++) {
                 snprintf(one, sizeof one, "%d-0-%d/%s", first, i >> 1, names[n]);

@@ -32,11 +32,17 @@ static int keep(path_tracer *t, int k, vmask goes, int kept)
 
 /* ---- a step of all living paths -------------------------------------------------------------- */
 
+/* Whether the paths stand where numbers go with those of their first direction. From the eye more
+ * was drawn before. */
+static bool goes_with_first(const path_tracer *t) { return t->depth == 1 && !t->o->eye; }
+
 vsample4 path_numbers(const path_tracer *t, int k, uint32_t purpose)
 {
     vint id     = vload_int(t->id + k * LANES);
     vuint index = vunsigned(vgather_int((const int32_t *)t->b->index, id));
     vuint seed  = vunsigned(vgather_int((const int32_t *)t->b->seed, id));
+    if (purpose == 0 && goes_with_first(t))
+        return vsobol4_more(index, vhash_combine(seed, vsplat_uint(0)));
     return vsobol4(index, vhash_combine(seed, vsplat_uint(purpose ^ t->depth)));
 }
 
@@ -50,10 +56,13 @@ vmask path_in_turn(const path_tracer *t, int k, int which, uint32_t turns)
     return ((turn + (uint32_t)which) & (turns - 1)) == 0;
 }
 
-/* Of a place. Lights have numbers of their own only where they need them. */
+/* Of a place. Lights have numbers of their own only where they need them: not where the numbers go
+ * with those of the beginning, which is worth more. What lights give and what the path finds
+ * farther on are added, not multiplied. */
 static void draw_numbers(path_tracer *t)
 {
-    bool own = t->s->extended || t->s->emitter_count > 0 || has_narrow(t->s);
+    bool own =
+        !goes_with_first(t) && (t->s->extended || t->s->emitter_count > 0 || has_narrow(t->s));
     for (int k = 0; k < packets_of(t); k++) {
         t->sample[k]       = path_numbers(t, k, 0);
         t->light_sample[k] = own ? path_numbers(t, k, (uint32_t)OF_LIGHT) : t->sample[k];

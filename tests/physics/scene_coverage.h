@@ -59,7 +59,8 @@ static const trial_scene trial_scenes[] = {
       .yaml     = "room: {size: [2, 8, 3], reflectance: {ceiling: 0.7, walls: 0.5, floor: 0.2}}\n"
                   "scene: [west.gltf, east.gltf]\n"
                   "materials: [{match: Mirror, mirror: 0.9}]\n"
-                  "lights: [{type: rect, at: [1, 4, 2.9], size: [1.2, 5], lumens: 3000}]\n"
+                  "lights: [{type: rect, at: [1, 4, 2.9], size: [1.2, 5], lumens: 3000}, {type: point, "
+                  "at: [0.7, 3, 2.2], lumens: 800}]\n"
                   "grids: [{name: g, origin: [0.2, 1, 0.1], u: [1.6, 0, 0], v: [0, 6, 0], spacing: "
                   "0.8}]\n",
       .grid     = "g",

@@ -5,9 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Sample n of the set, by number. */
+/* Sample n of the set, by number: Sobol dimensions 1 to 6 in their order. */
+enum { DIMENSIONS = 6 };
 typedef struct point {
-    float u[4];
+    float u[DIMENSIONS];
 } point;
 
 static void points(uint32_t first, int count, uint32_t seed, point *out)
@@ -15,8 +16,10 @@ static void points(uint32_t first, int count, uint32_t seed, point *out)
     for (int n = 0; n < count; n += LANES) {
         vuint index = vunsigned(vlane_index()) + first + (uint32_t)n;
         vsample4 s  = vsobol4(index, vsplat_uint(seed));
+        vsample4 m  = vsobol4_more(index, vsplat_uint(seed));
         for (int i = 0; i < LANES && n + i < count; i++)
-            out[n + i] = (point){ { lane(s.x, i), lane(s.y, i), lane(s.z, i), lane(s.w, i) } };
+            out[n + i] = (point){ { lane(s.x, i), lane(s.y, i), lane(m.z, i), lane(m.x, i),
+                                    lane(m.w, i), lane(m.y, i) } };
     }
 }
 
@@ -30,12 +33,13 @@ static uint32_t reverse(uint32_t a)
     return r;
 }
 
-/* Joe & Kuo's recurrence, and the lines of new-joe-kuo-6.21201 for dimensions 2, 3 and 4. */
+/* Joe & Kuo's recurrence, and the lines of new-joe-kuo-6.21201 for dimensions 2 to 6. */
 static uint32_t sobol_twin(uint32_t index, int dimension)
 {
     static const struct {
-        uint32_t s, a, m[3];
-    } line[4] = { { 0, 0, { 0 } }, { 1, 0, { 1 } }, { 2, 1, { 1, 3 } }, { 3, 1, { 1, 3, 1 } } };
+        uint32_t s, a, m[4];
+    } line[DIMENSIONS] = { { 0, 0, { 0 } },       { 1, 0, { 1 } },       { 2, 1, { 1, 3 } },
+                           { 3, 1, { 1, 3, 1 } }, { 3, 2, { 1, 1, 1 } }, { 4, 1, { 1, 1, 3, 3 } } };
 
     uint32_t v[32], x = 0, s = line[dimension].s;
     for (uint32_t k = 0; k < 32; k++) {
@@ -66,15 +70,18 @@ static uint32_t nested_scramble_twin(uint32_t x, uint32_t seed)
 
 TEST(the_twin_starts_as_published)
 {
-    /* The output of Joe & Kuo's own program begins 0, .5, (.75, .25, .25, .25), (.25, .75, .75,
-     * .75): there in the order of Gray's code, which swaps the last two. */
-    static const double published[4][4] = { { 0, 0, 0, 0 },
-                                            { 0.5, 0.5, 0.5, 0.5 },
-                                            { 0.25, 0.75, 0.75, 0.75 },
-                                            { 0.75, 0.25, 0.25, 0.25 } };
-    for (uint32_t n = 0; n < 4; n++)
-        for (int d = 0; d < 4; d++)
-            assert_near(sobol_twin(n, d) * 0x1p-32, published[n][d], 0.0);
+    /* The output of Joe & Kuo's own program, which goes in the order of Gray's code: number n there
+     * is number n ^ n / 2. */
+    static const double published[5][DIMENSIONS] = {
+        { 0, 0, 0, 0, 0, 0 },
+        { 0.5, 0.5, 0.5, 0.5, 0.5, 0.5 },
+        { 0.75, 0.25, 0.25, 0.25, 0.75, 0.75 },
+        { 0.25, 0.75, 0.75, 0.75, 0.25, 0.25 },
+        { 0.375, 0.375, 0.625, 0.875, 0.375, 0.125 },
+    };
+    for (uint32_t n = 0; n < 5; n++)
+        for (int d = 0; d < DIMENSIONS; d++)
+            assert_near(sobol_twin(n ^ n >> 1, d) * 0x1p-32, published[n][d], 0.0);
 }
 
 TEST(points_are_those_of_the_twin)
@@ -85,11 +92,20 @@ TEST(points_are_those_of_the_twin)
         point p;
         points(index, 1, seed, &p);
         uint32_t h = hash_u32(seed), n = nested_scramble_twin(index, hash_u32(h));
-        for (int d = 0; d < 4; d++) {
+        for (int d = 0; d < DIMENSIONS; d++) {
             uint32_t x = nested_scramble_twin(sobol_twin(n, d), hash_u32(h + 1 + (uint32_t)d));
             assert_true(p.u[d] == (float)(x >> 8) * 0x1p-24f);
             assert_true(p.u[d] >= 0.0f && p.u[d] < 1.0f);
         }
+    }
+}
+
+TEST(numbers_of_a_second_vertex_are_of_the_same_set)
+{
+    for (uint32_t k = 0; k < 1000; k += LANES) {
+        vuint index = vunsigned(vlane_index()) + k, seed = vhash(index);
+        vsample4 s = vsobol4(index, seed), m = vsobol4_more(index, seed);
+        assert_false(vany((m.z != s.z) | (m.x != s.w)));
     }
 }
 
@@ -98,7 +114,7 @@ TEST(every_width_gives_the_same_points)
     for (uint32_t k = 0; k < 20000; k += LANES) {
         vuint index = vunsigned(vlane_index()) + k;
         vuint seed = vhash(index), both = vhash_combine(index, seed);
-        vsample4 s = vsobol4(index, both);
+        vsample4 s = vsobol4(index, both), m = vsobol4_more(index, both);
         for (int i = 0; i < LANES; i++) {
             float one[4];
             assert_int_equal(lane(seed, i), hash_u32(k + (uint32_t)i));
@@ -108,6 +124,9 @@ TEST(every_width_gives_the_same_points)
             one_lane_sobol4(k + (uint32_t)i, lane(both, i), one);
             assert_true(lane(s.x, i) == one[0] && lane(s.y, i) == one[1]);
             assert_true(lane(s.z, i) == one[2] && lane(s.w, i) == one[3]);
+            one_lane_sobol4_more(k + (uint32_t)i, lane(both, i), one);
+            assert_true(lane(m.x, i) == one[0] && lane(m.y, i) == one[1]);
+            assert_true(lane(m.z, i) == one[2] && lane(m.w, i) == one[3]);
         }
     }
 }
@@ -136,30 +155,65 @@ TEST(powers_of_two_samples_are_a_net)
     for (int m = 0; m <= 12; m++)
         for (uint32_t block = 0; block < 3; block++) {
             points(block << m, 1 << m, 77 * block + (uint32_t)m, p);
-            for (int d = 0; d < 4; d++)
+            for (int d = 0; d < DIMENSIONS; d++)
                 assert_true(one_in_each(p, m, m, d, d));
             for (int a = 0; a <= m; a++)
                 assert_true(one_in_each(p, m, a, 0, 1));
         }
 }
 
+/* The most that a cell of 2^a columns by 2^(m-a) rows holds of 2^m points. */
+static int most_in_one(const point *p, int m, int a, int column_of, int row_of)
+{
+    static int held[4096];
+    int most = 0;
+    memset(held, 0, sizeof held);
+    for (int n = 0; n < 1 << m; n++) {
+        int column = (int)(p[n].u[column_of] * (float)(1 << a));
+        int row    = (int)(p[n].u[row_of] * (float)(1 << (m - a)));
+        int *cell  = &held[(row << a) + column];
+        most       = ++*cell > most ? *cell : most;
+    }
+    return most;
+}
+
+/* In the plane of two coordinates whose polynomials are of degrees s and s' (of the first: 1) no
+ * cell of area 2^-m holds more than 2^t points, t = s - 1 + s' - 1 (Sobol 1967; Niederreiter,
+ * "Random number generation and quasi-Monte Carlo methods", 1992, section 4.5). */
+TEST(planes_of_all_six_dimensions_are_nets)
+{
+    static const int degree[DIMENSIONS] = { 1, 1, 2, 3, 3, 4 };
+    enum { M = 12 };
+    static point p[1 << M];
+    for (uint32_t block = 0; block < 2; block++) {
+        points(block << M, 1 << M, 31 + block, p);
+        for (int d = 0; d < DIMENSIONS; d++)
+            for (int e = 0; e < d; e++)
+                for (int a = 0; a <= M; a++) {
+                    int t = degree[d] + degree[e] - 2;
+                    assert_true(most_in_one(p, M, a, d, e) <= 1 << t);
+                }
+    }
+}
+
 /* The share of points in a grid of 16 x 16 over any two coordinates, over many seeds. */
 TEST(each_sample_is_even_over_the_seeds)
 {
-    enum { SEEDS = 1 << 16, CELLS = 256 };
+    enum { SEEDS = 1 << 16, CELLS = 256, PAIRS = DIMENSIONS * (DIMENSIONS - 1) / 2 };
     double expected[CELLS];
     for (int c = 0; c < CELLS; c++)
         expected[c] = (double)SEEDS / CELLS;
     for (uint32_t index = 0; index < 2; index++) {
-        int count[6][CELLS] = { 0 };
+        static int count[PAIRS][CELLS];
+        memset(count, 0, sizeof count);
         for (uint32_t seed = 0; seed < SEEDS; seed++) {
             point p;
             points(index, 1, seed, &p);
-            for (int a = 0, pair = 0; a < 4; a++)
-                for (int b = a + 1; b < 4; b++, pair++)
+            for (int a = 0, pair = 0; a < DIMENSIONS; a++)
+                for (int b = a + 1; b < DIMENSIONS; b++, pair++)
                     count[pair][(int)(p.u[a] * 16.0f) * 16 + (int)(p.u[b] * 16.0f)]++;
         }
-        for (int pair = 0; pair < 6; pair++)
+        for (int pair = 0; pair < PAIRS; pair++)
             assert_true(chi_square_test(expected, count[pair], CELLS) > 1e-4);
     }
 }
@@ -231,7 +285,9 @@ TEST(the_spread_of_16_scrambles_tells_the_error)
     assert_near((double)covered / GROUPS, 0.95, 0.04);
 }
 
-/* Coordinates of two sets, by sample number. The deviation of a correlation is 1/64. */
+/* Coordinates of two sets, by sample number. The deviation of a correlation is 1.25/64: the first
+ * digits make 3/4 of a coordinate's variance, and their products are the same in pairs of samples,
+ * so that of the variance 1/64^2 of even pairings (3/4)^2 counts twice: 25/16 of it. */
 static double worst_correlation(uint32_t seed, uint32_t other)
 {
     enum { N = 4096 };
@@ -239,8 +295,8 @@ static double worst_correlation(uint32_t seed, uint32_t other)
     points(0, N, seed, p);
     points(0, N, other, q);
     double worst = 0.0;
-    for (int a = 0; a < 4; a++)
-        for (int b = 0; b < 4; b++) {
+    for (int a = 0; a < DIMENSIONS; a++)
+        for (int b = 0; b < DIMENSIONS; b++) {
             double sum = 0.0;
             for (int n = 0; n < N; n++)
                 sum += ((double)p[n].u[a] - 0.5) * ((double)q[n].u[b] - 0.5);
@@ -251,14 +307,15 @@ static double worst_correlation(uint32_t seed, uint32_t other)
 
 TEST(sets_of_different_seeds_are_uncorrelated)
 {
+    const double deviation_of_one = 1.25 / 64.0;
     for (uint32_t seed = 0; seed < 24; seed++) {
         uint32_t path = hash_u32(seed);
-        assert_true(worst_correlation(seed, seed + 1) < 5.0 / 64.0);
-        assert_true(worst_correlation(seed, seed ^ 0x80000000) < 5.0 / 64.0);
+        assert_true(worst_correlation(seed, seed + 1) < 5.0 * deviation_of_one);
+        assert_true(worst_correlation(seed, seed ^ 0x80000000) < 5.0 * deviation_of_one);
         assert_true(worst_correlation(hash_combine_u32(path, 0), hash_combine_u32(path, 1)) <
-                    5.0 / 64.0);
+                    5.0 * deviation_of_one);
         assert_true(worst_correlation(hash_combine_u32(seed, 3), hash_combine_u32(seed + 1, 3)) <
-                    5.0 / 64.0);
+                    5.0 * deviation_of_one);
     }
 }
 
@@ -285,8 +342,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_twin_starts_as_published),
         cmocka_unit_test(points_are_those_of_the_twin),
+        cmocka_unit_test(numbers_of_a_second_vertex_are_of_the_same_set),
         cmocka_unit_test(every_width_gives_the_same_points),
         cmocka_unit_test(powers_of_two_samples_are_a_net),
+        cmocka_unit_test(planes_of_all_six_dimensions_are_nets),
         cmocka_unit_test(each_sample_is_even_over_the_seeds),
         cmocka_unit_test(smooth_integrals_converge_far_faster_than_at_random),
         cmocka_unit_test(the_mean_over_seeds_is_unbiased),

@@ -163,6 +163,20 @@ static int64_t follow_mirrors(const path_tracer *t, int n, int most, bent_ways *
     return count;
 }
 
+/* The cosine at which rays come to the glowing triangles that they are aimed at: what places are
+ * off square to these is more along the ray. */
+static vfloat flatness(const path_tracer *t, int k, const vvec3 *way, vmask glows)
+{
+    vfloat cosine = vsplat(1.0f);
+    while (vany(glows)) {
+        int l;
+        vmask same = vtake_same(t->lights[k].light, &glows, &l);
+        vvec3 axis = vspread(light_bounds_of(t->s->lights[l]).axis);
+        cosine     = vselect(same, vmax(vabs(vdot(*way, axis)), vsplat(1e-3f)), cosine);
+    }
+    return cosine;
+}
+
 /* From the last mirror to the light; to before a surface that glows, as closely as a bent way is
  * known. */
 static void arrive(path_tracer *t, int first, int n, bent_ways *w)
@@ -174,7 +188,8 @@ static void arrive(path_tracer *t, int first, int n, bent_ways *w)
         vmask glows = t->lights[k].light >= s->light_count;
         vvec3 bend  = w->last[i].position;
         vfloat size = t->lights[k].dist + vmax(vabs(bend.x), vmax(vabs(bend.y), vabs(bend.z)));
-        vfloat left = w->left[i] - vkeep(glows, size * rounding);
+        vfloat flat = vkeep(glows, size * rounding) / flatness(t, k, &w->rays[i].direction, glows);
+        vfloat left = w->left[i] - vmin(flat, 0.5f * w->left[i]);
         t->rays[k]  = direct_shadow_ray(&w->last[i], &w->rays[i].direction, left);
         vint owner  = vsplat_int(0);
         vmask owned = s->owners ? w->arrived[i] : (vmask){ 0 };

@@ -59,15 +59,15 @@ TEST(a_plate_of_glass_takes_nothing_from_a_glow_but_what_it_reflects)
     lab_close(&l);
 }
 
-/* From within one block of glass to a lamp within another: 10 cm of each, both faces between. */
+/* From within one plate of glass to a lamp within another: 10 cm of each, both faces between. */
 TEST(light_from_solid_to_solid_is_absorbed_in_both)
 {
     lab l;
     lab_open(&l);
     quad low[6], high[6];
     char *made_of = solid_of(&l, ",\"attenuationDistance\":0.1,\"attenuationColor\":[0.5,0.5,0.5]");
-    quads_of_box((dvec3){ -1, -1, -0.1 }, (dvec3){ 1, 1, 0.1 }, low);
-    quads_of_box((dvec3){ -1, -1, 0.9 }, (dvec3){ 1, 1, 1.1 }, high);
+    quads_of_box((dvec3){ -3, -3, -0.1 }, (dvec3){ 3, 3, 0.1 }, low);
+    quads_of_box((dvec3){ -3, -3, 0.9 }, (dvec3){ 3, 3, 1.1 }, high);
     lab_quads(&l, "low.gltf", low, 6, made_of);
     lab_quads(&l, "high.gltf", high, 6, made_of);
     const lab_probe p = { { 0, 0, 0 }, up };

@@ -12,7 +12,7 @@ static const char *said(const char *lamp, const char *surface, bool direct_only)
     char yaml[600];
     lab_open(&l);
     const quad wall  = { { { 1, -1, -1 }, { 1, 1, -1 }, { 1, 1, 1 }, { 1, -1, 1 } } };
-    const quad floor = quad_level(0, 0, -1, 4);
+    const quad floor = { { { -2, -2, -1 }, { 2, -2, -1 }, { 2, 2, -1 }, { -2, 2, -1 } } };
     lab_quads(&l, "wall.gltf", &wall, 1, "\"name\":\"Wall\"");
     lab_quads(&l, "floor.gltf", &floor, 1, "\"name\":\"Floor\"");
     snprintf(yaml, sizeof yaml,

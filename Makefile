@@ -196,18 +196,18 @@ build/pkg.mk: Makefile
 
 # ---- what to do with it ---------------------------------------------------------------------
 
-## check: every test at widths 4 and 1, files at 1, 4 and 8 alike, no layer that includes one above it
-# Tests of the program run it as it is at 4; those of widths hold its files at 1 and 8 to be the same.
+## check: every test at width 4, units at 1, files at 1, 4 and 8 alike, no layer that includes one above it
+# Tests of physics and of the program run at 4 alone; those of widths hold its files at 1 and 8 to be the same.
 check: layers
 	$Q$(MAKE) -j$$(nproc) tests WIDTH=4
 	$Q$(MAKE) -j$$(nproc) all tests-inside WIDTH=1
-	$Qrm -rf build/release-1/tests/cli
+	$Qrm -rf build/release-1/tests/cli build/release-1/tests/physics
 	$Qif grep -qw avx2 /proc/cpuinfo 2> /dev/null; then $(MAKE) -j$$(nproc) all WIDTH=8; fi
 	$Qtests/run build/release-4 build/release-1
 
 ## tests: build the test programs of this width (check builds and runs them)
 tests: all $(TESTS)
-tests-inside: all $(filter-out $B/tests/cli/%,$(TESTS))
+tests-inside: all $(filter-out $B/tests/cli/% $B/tests/physics/%,$(TESTS))
 
 ## check-long: what takes more than minutes: every float of every packet function, and the like
 check-long: all $(LONG)

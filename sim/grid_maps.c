@@ -75,7 +75,7 @@ static double too_noisy(const grid_run_state *g)
  */
 static bool grow_focused(grid_run_state *g, arena *a, const map_sensors *m, lux_error *err)
 {
-    const int64_t most   = INT64_C(1) << 26;
+    const int64_t most   = INT64_C(1) << (g->o->deadline < HUGE_VAL ? 26 : 23); /* half a minute */
     const double at_once = 16.0; /* times: what is seen with few is not sure */
     for (;;) {
         double over     = too_noisy(g);

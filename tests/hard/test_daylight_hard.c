@@ -102,7 +102,7 @@ TEST(a_sun_in_the_plane_of_a_window_hardly_comes_in)
                                    "room: {size: [4, 5, 3], reflectance: 0.5, windows: [{wall: "
                                    "south, at: [1, 1], size: [2, 1.2]}]}\n%s",
                                    kinds[i]);
-        lab_measure(&l, yaml, NULL, p, 3, &(run_options){ .accuracy = 0.1, .threads = 2 }, &r);
+        lab_measure(&l, yaml, NULL, p, 3, &(run_options){ .accuracy = 0.5, .threads = 2 }, &r);
         /* What comes in: 50,000 lx by 2.4 m^2 by grazing() = 0.001 are 118 lm. */
         for (int k = 0; k < 3; k++)
             assert_true(r.illuminance[k] >= 0.0 && r.illuminance[k] <= 118.0);

@@ -62,7 +62,7 @@ static void seen(double n, double inner)
     quad side[6];
     quads_of_box((dvec3){ -4, -4, -4 }, (dvec3){ 4, 4, 4 }, side);
     lab_quads(&l, "glow.gltf", side, 6, lab_glow(&l, 100.0));
-    lab_sphere(&l, "ball.gltf", (dvec3){ 0 }, 0.5, 60,
+    lab_sphere(&l, "ball.gltf", (dvec3){ 0 }, 0.5, 120,
                text_of(&l.a,
                        "\"name\":\"Ball\",\"pbrMetallicRoughness\":{\"metallicFactor\":0,"
                        "\"roughnessFactor\":0},\"extensions\":{\"KHR_materials_transmission\":{"
@@ -80,7 +80,7 @@ static void seen(double n, double inner)
     double mean = 0.0, outline = M_PI / 4.0;
     for (int i = 0; i < SIDE * SIDE; i++)
         mean += LUMENS_PER_WATT * (double)r.radiance[1][i] / 100.0 / (SIDE * SIDE);
-    /* 1e-2: 256 pixels know 3 % each; pieces are 3 degrees wide; and within solids light is taken
+    /* 1e-2: 256 pixels know 3 % each; pieces are 1.5 degrees wide; and within solids light is taken
      * as unpolarised at each border, which makes 0.15 % here */
     assert_near((mean - (1.0 - outline)) / outline, 1.0 - glass_sphere_of(n, inner).absorbed, 1e-2);
     lab_close(&l);

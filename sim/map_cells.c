@@ -482,7 +482,8 @@ static void sort_marks(const map_growth *g, const map_cells *c)
         map_mark *m = &g->marks[i];
         m->piece    = c->meshes[world_mesh(g->s->world, m->instance)].piece[m->triangle];
     }
-    qsort(g->marks, g->mark_count, sizeof *g->marks, compare_marks);
+    if (g->mark_count > 0)
+        qsort(g->marks, g->mark_count, sizeof *g->marks, compare_marks);
 }
 
 double map_lit_area(const map_growth *g, const map_cells *c)

@@ -79,7 +79,8 @@ static uint32_t *join_corners(arena *scratch, const world *w, int32_t instance, 
         vec3 p   = d3_to_float(c[i % 3]);
         place[i] = (corner_place){ { p.x, p.y, p.z }, (uint32_t)i };
     }
-    qsort(place, n, sizeof *place, compare_places);
+    if (n > 0)
+        qsort(place, n, sizeof *place, compare_places);
     for (size_t i = 0; i < n; i++) {
         bool same           = i > 0 && compare_places(&place[i - 1], &place[i]) == 0;
         id[place[i].corner] = same ? id[place[i - 1].corner] : place[i].corner;
@@ -114,7 +115,8 @@ static bool join_triangles(arena *scratch, const world *w, int32_t instance, int
         uint32_t p = id[i], q = id[i % 3 == 2 ? i - 2 : i + 1];
         edge[i] = (mesh_edge){ p < q ? p : q, p < q ? q : p, (int32_t)(i / 3) };
     }
-    qsort(edge, n, sizeof *edge, compare_edges);
+    if (n > 0)
+        qsort(edge, n, sizeof *edge, compare_edges);
     for (size_t i = 0; i < n; i++) /* more than two may share an edge: each with each */
         for (size_t j = i + 1; j < n && j < i + 4; j++) {
             if (edge[j].low != edge[i].low || edge[j].high != edge[i].high)

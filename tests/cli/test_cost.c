@@ -16,11 +16,23 @@ static const char view[] =
     "lights: [{type: point, at: [1.75, 1.5, 2.25], intensity: 100}]\n"
     "views: [{name: hall, eye: [0.5, 0.5, 1.2], target: [3, 2, 1], size: [32, 24]}]\n";
 
+/* On a slow machine the time may be out before the study's accuracy is reached, exit code 3:
+ * results are there all the same. */
+static void run_cost(const program_desc *d, program_result *r)
+{
+    program_free(r);
+    program_run(d, r);
+    if (r->code != 0 && r->code != 3)
+        fail_msg("lux4 cost exits with %d: %s", r->code, r->err);
+}
+#define LUX4_COST(folder_, r_, ...)                                                                \
+    run_cost(&(program_desc){ .folder = (folder_), .words = { "cost", __VA_ARGS__ } }, r_)
+
 TEST(a_room_gets_a_table_and_files)
 {
     char *folder     = folder_of_study(room);
     program_result r = { 0 };
-    LUX4(folder, 0, &r, "cost", "study.yaml", "--time", "10");
+    LUX4_COST(folder, &r, "study.yaml", "--time", "10");
     assert_non_null(strstr(r.out, "grid floor, accuracy 10 %"));
     assert_non_null(strstr(r.out, "--accuracy 20%"));
     assert_non_null(strstr(r.out, "bounces unlimited"));
@@ -39,7 +51,7 @@ TEST(json_has_rows_and_advice)
 {
     char *folder     = folder_of_study(room);
     program_result r = { 0 };
-    LUX4(folder, 0, &r, "cost", "study.yaml", "--time", "10", "--json");
+    LUX4_COST(folder, &r, "study.yaml", "--time", "10", "--json");
     assert_true(json_is_valid(r.out));
     assert_non_null(json_at(r.out, "rows.0.setting"));
     assert_true(json_number_at(r.out, "rows.0.rays") > 0.0);
@@ -54,8 +66,8 @@ TEST(the_same_study_replaces_its_own_results_and_no_others)
 {
     char *folder     = folder_of_study(room);
     program_result r = { 0 };
-    LUX4(folder, 0, &r, "cost", "study.yaml", "--time", "3");
-    LUX4(folder, 0, &r, "cost", "study.yaml", "--time", "3");
+    LUX4_COST(folder, &r, "study.yaml", "--time", "3");
+    LUX4_COST(folder, &r, "study.yaml", "--time", "3");
     folder_write(folder, "other.yaml", room);
     LUX4_FAILS(folder, 2, "is there already", "cost", "other.yaml", "--time", "3");
     program_free(&r);
@@ -66,7 +78,7 @@ TEST(a_study_of_views_is_run_by_rays_a_pixel_too)
 {
     char *folder     = folder_of_study(view);
     program_result r = { 0 };
-    LUX4(folder, 0, &r, "cost", "study.yaml", "--time", "15", "--accuracy", "50%");
+    LUX4_COST(folder, &r, "study.yaml", "--time", "15", "--accuracy", "50%");
     assert_non_null(strstr(r.out, "view hall"));
     assert_non_null(strstr(r.out, "1 ray a pixel"));
     assert_non_null(strstr(r.out, "25 rays a pixel"));

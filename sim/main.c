@@ -9,9 +9,9 @@
 
 /* A new command is one file and one line here. */
 static const command *const commands[] = {
-    &command_grid, &command_render,     &command_daylight, &command_check, &command_sun,
-    &command_sky,  &command_photometry, &command_material, &command_mix,   &command_plan,
-    &command_cost
+    &command_grid, &command_render, &command_daylight,   &command_check,
+    &command_sun,  &command_sky,    &command_photometry, &command_material,
+    &command_mix,  &command_plan,   &command_cost
 };
 enum { COMMANDS = sizeof commands / sizeof *commands };
 

@@ -25,6 +25,8 @@ transport plan_transport(const plan_facts *f, bool interreflection, char *why, s
         snprintf(why, size, "all moments of a series are weighed from the same paths");
     else if (places < least)
         snprintf(why, size, "%.0f %s: maps pay from %.0f on", places, what, least);
+    else if (f->s->exteriors)
+        snprintf(why, size, "most particles of daylight would stay outside");
     else if (m->matt_share < mostly)
         snprintf(why, size, "%.0f %% of the surface area is not matt",
                  100.0 * (1.0 - m->matt_share));

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_FOUND = 512 /* planes that are told apart */, MOST_MATERIALS = 1 << 20 };
+enum { MOST_FOUND = 512 /* planes that are told apart */ };
 
 static const double facet_share = 0.03;  /* of a material's mirrors: less is a facet */
 static const float least_share  = 0.01f; /* of light, that a chain gives back */

@@ -11,11 +11,12 @@
  *
  * What is found in both ways, by asking lights and by the path's own rays, counts with the power
  * heuristic of both pdfs, p_a^2 / (p_a^2 + p_b^2) (Veach and Guibas, SIGGRAPH 1995): glowing
- * surfaces always, lamps with extent by way of all that is not matt. Mirrors are not asked about:
- * what a ray finds by way of them counts in full, and point-like lamps not at all. Through thin
- * glass and holes a path goes straight as if it had not met them; shadow rays have passed there
- * too. So they have, straight on, where glass refracts: what a path finds behind it, bent, counts
- * only if it began at the eye.
+ * surfaces always, lamps with extent by way of all that is not matt. Plane mirrors
+ * and panes show lights again, which are asked for as well (mirrors.h); what other mirrors and
+ * lenses focus is left to maps where there are any, and else counts in full where a ray meets it.
+ * Through thin glass and holes a path goes straight as if it had not met them; shadow rays have
+ * passed there too. So they have through plates of glass that refract: what a path finds behind
+ * these, bent, counts only if it began at the eye. No shadow ray passes other solids.
  *
  * A path is worked out alone, whatever packet it travels in: its result depends on its sample
  * number and seed only.

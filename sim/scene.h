@@ -78,7 +78,8 @@ typedef struct scene_sky {
 /* Up to so many lamps are all looked at to choose one; more are chosen from by a tree. */
 enum { FEW_LAMPS = 12 };
 
-/* So many samples a sensor takes at first where there are mirrors: lights in them are met rarely.
+/* So many samples a sensor takes at first where light comes by way of narrow lobes: lights
+ * in them are met rarely.
  */
 enum { MIRROR_SAMPLES = 4096 };
 

@@ -9,7 +9,7 @@
 #include "core/warp.h"
 #include "sim/scene_build.h"
 
-enum { RAYS = 1 << 12, MOST_MATERIALS = 64 };
+enum { RAYS = 1 << 12 };
 
 static const float even_normals = 0.999f; /* cosine */
 static const float flat         = 5.0f;   /* times as wide as thick */
@@ -32,13 +32,11 @@ static vray ray_through(const scene *s, vsample4 u, vsample4 v)
 }
 
 /* How far the solid's surface is from p along w. */
-static vfloat inside_to(const scene *s, const vsurface *at, const vvec3 *p, const vvec3 *w,
-                        vmask active, vvec3 *normal)
+static vfloat inside_to(const scene *s, const vvec3 *p, const vvec3 *w, vmask active, vvec3 *normal)
 {
     vray ray = { *p, *w, vsplat(INFINITY) };
     vhit hit;
     vsurface there;
-    (void)at;
     world_first_hit(s->world, &ray, &active, 1, RAYS_INCOHERENT, &hit);
     world_surface(s->world, &hit, active & (hit.instance >= 0), &there);
     *normal = there.normal;
@@ -49,7 +47,7 @@ static vmask is_plate(const scene *s, const vsurface *at, vmask met)
 {
     vvec3 in    = vneg(at->normal), back, ignored;
     vvec3 start = vray_start(at, &in);
-    vfloat deep = inside_to(s, at, &start, &in, met, &back);
+    vfloat deep = inside_to(s, &start, &in, met, &back);
     vmask plate = met & (deep < INFINITY) & (vabs(vdot(back, at->normal)) > even_normals);
     vvec3 mid   = valong(start, in, 0.5f * deep);
     vvec3 u, v;
@@ -57,7 +55,7 @@ static vmask is_plate(const scene *s, const vsurface *at, vmask met)
     vvec3 sides[4] = { u, v, vneg(u), vneg(v) };
     vint far       = { 0 };
     for (int i = 0; i < 4 && vany(plate); i++) {
-        vfloat d = inside_to(s, at, &mid, &sides[i], plate, &ignored);
+        vfloat d = inside_to(s, &mid, &sides[i], plate, &ignored);
         far      = vselect_int(d > flat * deep, far + 1, far);
     }
     return plate & (far >= 3);

@@ -1,7 +1,8 @@
 /* sim/shadow.h -- what of a light arrives along a shadow ray: all, nothing, or what thin glass and
  * holes let through.
  *
- * Light that passes a solid which refracts is taken to go straight on: each face lets through what
+ * Light that passes a plate of glass which refracts is taken to go straight on (other solids let no
+ * shadow ray pass: scene_lens.c): each face lets through what
  * Fresnel's formulae leave of it, the inside what it does not absorb. Where the light would truly
  * go, a little or far beside, no shadow ray can know: results say so (scene_left_to_chance()).
  */

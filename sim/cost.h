@@ -6,7 +6,8 @@
  *
  *     RMS^2   = mean over sensors and runs of e^2 - mean of s^2
  *     noise^2 = mean over sensors of the variance of e between runs
- *     bias^2  = mean over sensors of (mean of e over runs)^2 - noise^2 / K - mean of s^2
+ *     bias^2  = mean over sensors of (mean of e over runs)^2 - noise^2 / K - mean of s^2,
+ *               0 where that is less than two of its standard errors
  *
  * More time lowers noise and leaves bias as it is.
  */

@@ -17,6 +17,8 @@ static const double least_slope = -0.1; /* one that is flatter was not measured 
 static const double one_percent = 0.01;
 static const double enough      = 0.95; /* the share of the sensors that is promised */
 
+static const double surely = 2.0; /* standard errors */
+
 /* Below this share of the reference's own noise an error is not told apart from none. */
 static const double told_apart = 0.5;
 
@@ -86,10 +88,10 @@ double cost_half_width(const cost_sample *of, const cost_sample *reference)
 
 /* Means over all sensors. */
 typedef struct error_sums {
-    double squares;   /* of errors, over runs too */
-    double of_mean;   /* squares of the mean over runs */
-    double between;   /* variances between runs; NAN of one run */
-    double reference; /* squares of the reference's standard error */
+    double squares;            /* of errors, over runs too */
+    double between;            /* variances between runs; NAN of one run */
+    double reference;          /* squares of the reference's standard error */
+    double bias, bias_squared; /* what a sensor says of the square of the bias; its square */
     double within, promised;
 } error_sums;
 
@@ -109,12 +111,23 @@ static void add_sensor(const cost_sample *runs, int count, const cost_sample *re
     }
     for (int k = 0; k < count; k++)
         squares += (e[k] - mean) * (e[k] - mean);
-    s->between += squares / (count - 1);
-    s->of_mean += mean * mean;
+    double between = squares / (count - 1), bias = mean * mean - between / count - own * own;
+    s->between += between;
+    s->bias += bias;
+    s->bias_squared += bias * bias;
     s->reference += own * own;
 }
 
 static double root(double square) { return sqrt(fmax(square, 0.0)); }
+
+/* Of the mean of what n sensors say, and none where that is no more than their spread explains: a
+ * few wild pixels of few rays are no bias. */
+static double bias_of(const error_sums *s, int n)
+{
+    double mean     = s->bias / n;
+    double variance = fmax(s->bias_squared / n - mean * mean, 0.0) / fmax(n - 1, 1.0);
+    return mean > surely * sqrt(variance) ? root(mean) : 0.0;
+}
 
 void cost_row_figures(const cost_sample *runs, int count, const cost_sample *reference,
                       double asked, cost_row *out)
@@ -138,8 +151,8 @@ void cost_row_figures(const cost_sample *runs, int count, const cost_sample *ref
     out->rays       = (int64_t)llround(cost_median(rays, count));
     out->rms        = root(fmax((s.squares - s.reference) / n, least));
     out->noise      = count > 1 ? root(s.between / n) : fmin(out->half_width / student_t, out->rms);
-    double chance   = out->noise * out->noise / count + s.reference / n;
-    out->bias       = root(s.of_mean / n - chance);
+    out->bias       = count > 1 ? bias_of(&s, reference->count)
+                                : root(out->rms * out->rms - out->noise * out->noise);
     out->within     = s.within / n;
     out->reaches    = out->within >= enough;
     out->promises   = s.promised / n >= enough;

@@ -89,6 +89,25 @@ TEST(bias_is_told_from_noise)
     arena_clear(&a);
 }
 
+/* One sensor that is off by 10 and 9 times its value in two of three runs looks biased, by
+ * (19 / 3)^2 - 10.1 in the square, but is one of many. */
+TEST(a_wild_sensor_is_no_bias)
+{
+    arena a               = { 0 };
+    cost_sample reference = made_sample(&a, 0.0, 0.001, 7);
+    cost_sample runs[3];
+    for (uint32_t k = 0; k < 3; k++)
+        runs[k] = made_sample(&a, 0.0, 0.005, 11 + k);
+    runs[0].value[5] = 11.0f * reference.value[5];
+    runs[1].value[5] = 10.0f * reference.value[5];
+    cost_row r       = { 0 };
+    cost_row_figures(runs, 3, &reference, 0.02, &r);
+    assert_true(r.rms > 0.1);
+    assert_near(r.bias, 0.0, 0.0);
+    assert_true(isfinite(cost_seconds_for_1(&r, -0.5)));
+    arena_clear(&a);
+}
+
 TEST(an_error_below_the_references_noise_is_not_called_none)
 {
     arena a               = { 0 };
@@ -246,6 +265,7 @@ int main(void)
         cmocka_unit_test(one_point_has_no_slope),
         cmocka_unit_test(the_noise_of_the_reference_is_taken_off),
         cmocka_unit_test(bias_is_told_from_noise),
+        cmocka_unit_test(a_wild_sensor_is_no_bias),
         cmocka_unit_test(an_error_below_the_references_noise_is_not_called_none),
         cmocka_unit_test(seconds_and_rays_are_medians),
         cmocka_unit_test(time_for_one_percent_follows_the_slope),

@@ -15,7 +15,7 @@ static const double student_t[SCRAMBLES] = { HUGE_VAL, 12.7062, 4.3027, 3.1824, 
                                              2.1788,   2.1604,  2.1448, 2.1314 };
 
 /* Items so few that threads would lie idle are split by scramble where they need many samples. */
-enum { FEW_ITEMS = 1024, LONG_ROUND = 1 << 20 /* samples */, LEAST_ROUNDS = 2 };
+enum { FEW_ITEMS = 1024, LONG_ROUND = 1 << 20 /* samples */ };
 
 typedef struct by_scramble {
     float sum[SCRAMBLES];

@@ -205,7 +205,7 @@ TEST(what_makes_no_sense_is_refused)
     d.transmittance.z = NAN;
     assert_null(material_pane(&a, &d, &err));
     d     = good;
-    d.ior = 1;
+    d.ior = 0.999f;
     assert_null(material_pane(&a, &d, &err));
     assert_int_equal(err.code, ERR_ARGUMENT);
     d                = good;

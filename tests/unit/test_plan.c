@@ -113,7 +113,7 @@ TEST(bounds_stay_below_a_fifth_of_the_accuracy)
     assert_true(p.effects[EFFECT_AREA_LIGHTS].bound > 0.0);
     assert_near(p.bound, sum, 1e-12);
     assert_true(p.bound < 0.02);
-    assert_why(&p, EFFECT_AREA_LIGHTS, false, "all 1 lamp of extent are points within ");
+    assert_why(&p, EFFECT_AREA_LIGHTS, false, "1 lamp of extent: point within ");
     assert_why(&p, EFFECT_INTERREFLECTION, false, "no surface reflects more than 0.0001 %");
 
     double both = p.bound, disk = p.effects[EFFECT_AREA_LIGHTS].bound;

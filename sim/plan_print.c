@@ -23,7 +23,9 @@ void plan_print(const plan *p)
         print_bound(e);
         printf("  %s%s\n", e->why, e->missed ? ": results change" : "");
     }
-    printf("bounds: %.2g %% of at most %.2g %%, a fifth of the accuracy asked for (%g %%)\n",
+    printf("bounds: all that is off changes results by at most %.2g %%; %.2g %% is allowed, a "
+           "fifth of "
+           "the accuracy asked for (%g %%)\n",
            100.0 * p->bound, 20.0 * p->accuracy, 100.0 * p->accuracy);
     printf("transport: %s: %s\n", transport_name(p->transport), p->transport_why);
     command_omission("", &p->unfocused);

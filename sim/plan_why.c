@@ -81,7 +81,9 @@ static void tell_extent(const plan_facts *f, bool called, plan_effect *to, bool 
     const scene *s   = f->s;
     const char *what = of_file ? "luminaire" : "lamp";
     int count = lamps_of_extent(s, of_file), all = lamps_of(s, of_file);
-    if (called && !to->on && to->bound > 0.0)
+    if (called && !to->on && !to->forced && to->bound == 0.0)
+        say(to, "no lamp is more than a point, but for openings of luminaires");
+    else if (called && !to->on && to->bound > 0.0)
         say(to, "%d %s%s of extent: point%s within %.2g %% at every sensor", count, what,
             plural(count), plural(count), 100.0 * to->bound);
     else if (called && count > 0)
@@ -213,15 +215,17 @@ static void tell_interreflection(const plan_facts *f, bool called, plan_effect *
         say(to, "no surface gives light on");
 }
 
-/* What is said of materials that are not looked at: light is not followed to them. */
-static void say_unused(const plan_facts *f, plan_effect *to, int count, const char *what)
+/* What is said of materials that are not looked at: light is not followed to them, or there are
+ * none. */
+static void say_unused(const plan_facts *f, plan_effect *to, int count, const char *none)
 {
-    if (count == 0)
-        say(to, "no %s in use", what);
-    else
-        say(to, "%d %s%s, and no light comes back from there", count, what, plural(count));
     if (!scene_is_lit(f->s))
         say(to, "nothing gives light");
+    else if (count == 0)
+        say(to, "%s", none);
+    else
+        say(to, "%d material%s call%s for it, but no light comes back from surfaces", count,
+            plural(count), count == 1 ? "s" : "");
 }
 
 static void tell_mirrors(const plan_facts *f, bool called, plan_effect *to)
@@ -232,7 +236,7 @@ static void tell_mirrors(const plan_facts *f, bool called, plan_effect *to)
             m->mirrors, plural(m->mirrors), m->mirrors == 1 ? "s" : "", 100.0 * m->sharpest,
             depth_of(f, m->sharpest));
     else
-        say_unused(f, to, m->mirrors, "mirror");
+        say_unused(f, to, m->mirrors, "no mirror in use");
 }
 
 static void tell_refraction(const plan_facts *f, bool called, plan_effect *to)
@@ -242,7 +246,7 @@ static void tell_refraction(const plan_facts *f, bool called, plan_effect *to)
         say(to, "%d solid%s of glass bend%s light, in and out: 2 faces each at least", count,
             plural(count), count == 1 ? "s" : "");
     else
-        say_unused(f, to, count, "solid that refracts");
+        say_unused(f, to, count, "no solid in use bends light");
 }
 
 static void tell_textures(const plan_facts *f, bool called, plan_effect *to)
@@ -255,7 +259,7 @@ static void tell_textures(const plan_facts *f, bool called, plan_effect *to)
         say(to, "%d textured material%s, first `%.60s`", m->textured, plural(m->textured),
             m->first_textured);
     else
-        say_unused(f, to, m->textured, "texture");
+        say_unused(f, to, m->textured, "no texture in use");
 }
 
 static void tell_normal_maps(const plan_facts *f, bool called, plan_effect *to)
@@ -266,7 +270,7 @@ static void tell_normal_maps(const plan_facts *f, bool called, plan_effect *to)
     else if (called)
         say(to, "%d normal map%s in use", count, plural(count));
     else
-        say_unused(f, to, count, "normal map");
+        say_unused(f, to, count, "no normal map in use");
 }
 
 static void tell_measured(const plan_facts *f, bool called, plan_effect *to)
@@ -277,7 +281,7 @@ static void tell_measured(const plan_facts *f, bool called, plan_effect *to)
         say(to, "%d measured table%s in use, first %.80s", m->measured, plural(m->measured),
             file ? file + 1 : m->first_measured);
     else
-        say_unused(f, to, m->measured, "measured table");
+        say_unused(f, to, m->measured, "no measured table in use");
 }
 
 static void tell_tints(const plan_facts *f, bool called, plan_effect *to)
@@ -286,7 +290,7 @@ static void tell_tints(const plan_facts *f, bool called, plan_effect *to)
     if (called)
         say(to, "light goes straight through %d material%s", count, plural(count));
     else
-        say_unused(f, to, count, "surface that light goes straight through");
+        say_unused(f, to, count, "light goes straight through no surface");
 }
 
 static void tell_color(const plan_facts *f, bool called, plan_effect *to)
@@ -346,5 +350,9 @@ void plan_tell(const plan_facts *f, effect e, bool called, plan_effect *to)
     char why[sizeof to->why];
     memcpy(why, to->why, sizeof why);
     if (to->forced && (to->on || called) && !(e == EFFECT_INTERREFLECTION && f->o->direct_only))
-        say(to, "%s: %.140s", to->on ? "asked for" : "left out as asked", why);
+        say(to, "%s%.140s",
+            !to->on  ? "left out as asked: "
+            : called ? "asked for: "
+                     : "asked for, though ",
+            why);
 }

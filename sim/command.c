@@ -91,18 +91,18 @@ bool command_maps(const command_context *c, const scene *s, int runs, run_option
     return true;
 }
 
-static void print_omission(const char *indent, const char *whose, double share, double lumens)
+static void print_omission(const char *begin, const char *whose, double share, double lumens)
 {
     if (lumens > 0.0)
-        printf("%sleft out: about %.*f lm of %s, %.2g %% of their light, that round mirrors or "
+        printf("%s: about %.*f lm of %s, %.2g %% of their light, that round mirrors or "
                "solids of glass focus: too little to look for at this accuracy\n",
-               indent, lumens < 10.0 ? 2 : 0, lumens, whose, 100.0 * share);
+               begin, lumens < 10.0 ? 2 : 0, lumens, whose, 100.0 * share);
 }
 
-void command_omission(const char *indent, const scene_omission *o)
+void command_omission(const char *begin, const scene_omission *o)
 {
-    print_omission(indent, "lamps", o->lamps, o->lamps_lm);
-    print_omission(indent, "suns", o->suns, o->suns_lm);
+    print_omission(begin, "lamps", o->lamps, o->lamps_lm);
+    print_omission(begin, "suns", o->suns, o->suns_lm);
 }
 
 static void json_omission(const char *whose, double share, double lumens)
@@ -136,7 +136,7 @@ void command_grid_remarks(const grid_result *r, run_end end, int missed, double 
                                : " of all as dimmed (layers are)");
     if (r->left_out_lm > 0.0)
         printf("  left out by maps: %.3g lm\n", r->left_out_lm);
-    command_omission("  ", &r->unfocused);
+    command_omission("  left out", &r->unfocused);
     if (left_to_chance)
         printf("  interval not valid: %s\n", left_to_chance);
 }

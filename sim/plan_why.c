@@ -81,9 +81,10 @@ static void tell_extent(const plan_facts *f, bool called, plan_effect *to, bool 
     const scene *s   = f->s;
     const char *what = of_file ? "luminaire" : "lamp";
     int count = lamps_of_extent(s, of_file), all = lamps_of(s, of_file);
-    if (called && !to->on && !to->forced && to->bound == 0.0)
+    bool openings = !of_file && count > 0 && count == lamps_of_extent(s, true);
+    if (called && !to->on && !to->forced && openings)
         say(to, "no lamp is more than a point, but for openings of luminaires");
-    else if (called && !to->on && to->bound > 0.0)
+    else if (called && !to->on && !to->forced)
         say(to, "%d %s%s of extent: point%s within %.2g %% at every sensor", count, what,
             plural(count), plural(count), 100.0 * to->bound);
     else if (called && count > 0)

@@ -1,5 +1,5 @@
 /* tests/physics/plan_pairs.h -- pairs of scenes that need an effect and do not, for
- * test_plan_pairs.c and test_plan_pairs_more.c: what the plan leaves out stays within its bound of
+ * test_plan_pairs*.c: what the plan leaves out stays within its bound of
  * the run with everything forced on, and a scene that needs it by a hair turns it on.
  */
 #ifndef TESTS_PHYSICS_PLAN_PAIRS_H

@@ -1,6 +1,6 @@
 /* tests/physics/test_plan_pairs.c -- pairs of scenes (plan_pairs.h) of lamps and their extent,
  * shadows, interreflection, daylight, colour and what materials do; and what is forced off.
- * test_plan_pairs_more.c has the other effects.
+ * test_plan_pairs_more.c and test_plan_pairs_views.c have the other effects.
  */
 #include "tests/physics/plan_pairs.h"
 #include "tests/slab.h"

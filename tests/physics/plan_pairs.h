@@ -1,6 +1,6 @@
 /* tests/physics/plan_pairs.h -- pairs of scenes that need an effect and do not, for
- * test_plan_pairs*.c: what the plan leaves out stays within its bound of
- * the run with everything forced on, and a scene that needs it by a hair turns it on.
+ * test_plan_pairs*.c: what the plan leaves out stays within its bound of the run with everything
+ * forced on, and a scene that needs it by a hair turns it on.
  */
 #ifndef TESTS_PHYSICS_PLAN_PAIRS_H
 #define TESTS_PHYSICS_PLAN_PAIRS_H

@@ -128,8 +128,11 @@ static void bend_normal(const material_textures *t, const place *at, vshading *s
     vmask bent  = at->lanes & map_frame(&t->normal, at->detail, front, &x, &y);
 
     vtexel map     = look_up(&t->normal, at);
-    vfloat along_x = t->normal_scale * (2.0f * map.red - 1.0f);
-    vfloat along_y = t->normal_scale * (2.0f * map.green - 1.0f);
+    vfloat red     = 2.0f * map.red - 1.0f;
+    vfloat green   = 2.0f * map.green - 1.0f;
+    bent           = bent & ((vabs(red) > NORMAL_MAP_FLAT) | (vabs(green) > NORMAL_MAP_FLAT));
+    vfloat along_x = t->normal_scale * red;
+    vfloat along_y = t->normal_scale * green;
     vfloat along_n = 2.0f * map.blue - 1.0f;
     vvec3 n        = vadd(vadd(vscale(x, along_x), vscale(y, along_y)), vscale(front, along_n));
     vfloat squared = vdot(n, n);

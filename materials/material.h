@@ -133,7 +133,7 @@ const material *material_dielectric(arena *a, const dielectric_desc *d, lux_erro
  * passages to and fro added up (reference: the slab). */
 typedef struct pane_desc {
     vec3 transmittance; /* of the whole pane at normal incidence, [0, (1 - R) / (1 + R)] */
-    float ior;          /* (1, 4] */
+    float ior;          /* [1, 4]; 1: nothing is reflected */
     bool box; /* of a closed box of glass: the whole pane acts where light enters or leaves by a
                  front side, and back sides do nothing */
     material_extra extra;

@@ -52,7 +52,8 @@ static vmask pane_scatter(const material *self, const vshading *s, vfloat u, vfl
     vpane all     = pane_at(self, s, active);
     vfloat passed = all.passed.x + all.passed.y + all.passed.z;
     vfloat back   = all.reflected.x + all.reflected.y + all.reflected.z;
-    vfloat chance = passed / (passed + back);
+    vmask both    = back > 0.0f; /* of index 1 nothing comes back, and all may be absorbed */
+    vfloat chance = vselect(both, passed / (passed + back), vsplat(1.0f));
     vmask passes  = active & (pick < chance);
     vmask mirrors = active & ~passes;
 
@@ -108,8 +109,8 @@ static float log2_inner(double ior, double transmittance)
 static bool valid(const pane_desc *d, lux_error *err)
 {
     static const char name[] = "glass pane";
-    if (!(d->ior > 1.0f && d->ior <= 4.0f))
-        return failed(err, ERR_ARGUMENT, "%s: an ior of %g is not in (1, 4]", name, (double)d->ior);
+    if (!(d->ior >= 1.0f && d->ior <= 4.0f))
+        return failed(err, ERR_ARGUMENT, "%s: an ior of %g is not in [1, 4]", name, (double)d->ior);
     vec3 t        = d->transmittance;
     double most   = pane_most((double)d->ior);
     float largest = (float)(most * (1.0 + 1e-6)); /* given as a float */

@@ -47,6 +47,7 @@ enum {
     SCRAMBLES    = 16,
     BUNDLE       = 1024,    /* samples that are asked for at once, at most */
     MOST_SAMPLES = 1 << 20, /* a scramble: 16 million an unknown */
+    LEAST_ROUNDS = 2,       /* before an unknown is done */
 };
 #define PARTS_SHARE 0.8
 

@@ -8,8 +8,6 @@
 
 #include <stdatomic.h>
 
-enum { LEAST_ROUNDS = 2 };
-
 typedef struct by_scramble {
     float sum[SCRAMBLES];
 } by_scramble;

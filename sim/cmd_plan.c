@@ -31,7 +31,7 @@ static int plan_command(const command_context *c, lux_error *err)
     asked.views = true;
     if (good && !c->line->json && !views && s->view_count > 0 &&
         plan_make(all, &asked, &of_views, NULL, err))
-        plan_print_transport(&of_views, "views");
+        plan_print_views(&of_views);
     arena_clear(&of_moments);
     return code;
 }

@@ -106,7 +106,7 @@ effects effects_of_grids(const scene *s, bool direct_only, bool outside)
 effects effects_of_views(const scene *s, bool direct_only)
 {
     effects all                 = effects_of_grids(s, direct_only, false);
-    all.on[EFFECT_ANTIALIASING] = true;
+    all.on[EFFECT_ANTIALIASING] = scene_is_lit(s); /* else all is black */
     if (scene_is_lit(s))
         add_materials(s, true, &all);
     return all;

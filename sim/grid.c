@@ -460,6 +460,7 @@ bool grid_run(arena *a, const scene *s, const study_grid *grid, const run_option
                           : !isnan(s->study->accuracy) ? s->study->accuracy
                                                        : GRID_DEFAULT_PERCENT / 100.0;
     out->left_to_chance = scene_left_to_chance(s, o->direct_only);
+    out->unfocused      = scene_left_unfocused(s, out->asked, o->direct_only);
     g.channels          = lay_out(&g);
     good                = good && make_results(a, &g, out, err) && make_known(&scratch, &g, err) &&
            make_threads(&g, &scratch, err) && run(a, &scratch, &g, out, err) &&

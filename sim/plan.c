@@ -169,7 +169,9 @@ bool plan_make(const scene *s, const plan_options *o, plan *out, notices *n, lux
         decision d    = { .f = &f, .p = out };
         out->accuracy = f.accuracy;
         decide(&d, n);
-        const char *weak = scene_left_to_chance(s, out->off >> EFFECT_INTERREFLECTION & 1);
+        bool direct      = out->off >> EFFECT_INTERREFLECTION & 1;
+        const char *weak = scene_left_to_chance(s, direct);
+        out->unfocused   = scene_left_unfocused(s, f.accuracy, direct);
         if (weak)
             out->weak[out->weak_count++] = weak;
     }

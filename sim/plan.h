@@ -37,7 +37,8 @@ typedef struct plan {
     double bound;    /* of all that is off, but for what the user forced off */
     transport transport;
     char transport_why[200];
-    int weak_count; /* path classes that no sampler here reaches well: results say so */
+    scene_omission unfocused; /* light that a run of that accuracy does not look for */
+    int weak_count;           /* path classes that no sampler here reaches well: results say so */
     const char *weak[LIGHT_CLASSES];
 } plan;
 
@@ -60,7 +61,7 @@ void plan_apply(const plan *p, run_options *o);
 void plan_print(const plan *p);
 void plan_print_json(const plan *p);
 
-/* Of a study's views, where the plan is that of its grids. */
-void plan_print_transport(const plan *p, const char *of);
+/* What is said besides of a study's views, where the plan is that of its grids. */
+void plan_print_views(const plan *of_views);
 
 #endif

@@ -13,10 +13,14 @@
  *
  * Lamps as points: the lights' own bounds (light.h), added up at each sensor.
  *
- * Pictures whose texels are within a share e of their mean, by channel: the light that is reflected
- * k times is off by (1 + e)^k - 1 at most, of which a room of reflectance rho makes
+ * Pictures whose texels are within a factor 1 + e of their mean, either way, by channel: whatever
+ * light falls on them, and were all of it on the darkest or the brightest texels, what meets them k
+ * times is off by (1 + e)^k - 1 at most. Light that surfaces of reflectance rho are to send on more
+ * than
  *
- *     e / (1 - (1 + e) rho)
+ *     k = log(0.0001) / log((1 + e) rho)
+ *
+ * times is less than a ten thousandth of all.
  */
 #include "core/color.h"
 #include "sim/accuracy.h"
@@ -219,7 +223,9 @@ static double bound_of_points(const plan_facts *f, effect e)
 
 /* ---- pictures -------------------------------------------------------------------------------- */
 
-/* How far texels of the first `channels` are from their mean, relative to it. */
+static const double forgotten = 1e-4; /* of all light */
+
+/* How far the mean and texels of the first `channels` are apart, relative to the lesser. */
 static double contrast_of(const texture_slot *slot, int first, int channels)
 {
     float low[4], high[4], mean[4];
@@ -230,7 +236,9 @@ static double contrast_of(const texture_slot *slot, int first, int channels)
     texture_mean(slot->texture, mean);
     for (int c = first; c < first + channels; c++)
         if (high[c] > low[c])
-            most = fmax(most, (double)(fmaxf(high[c] - mean[c], mean[c] - low[c]) / mean[c]));
+            most =
+                fmax(most, low[c] > 0.0f ? (double)fmaxf(high[c] / mean[c], mean[c] / low[c]) - 1.0
+                                         : HUGE_VAL);
     return most;
 }
 
@@ -245,31 +253,44 @@ static double contrast_of_all(const material_textures *t)
     return other > 0.0 ? HUGE_VAL : fmax(color, contrast_of(&t->emission, 0, 3));
 }
 
-static double bound_of_textures(const plan_facts *f)
+/* After how many meetings with surfaces of that share next to no light is left. */
+static double meetings_of(double share)
 {
-    double e = 0.0;
-    for (int i = 0; i < f->s->material_count; i++) {
-        const material *m = f->s->materials[i];
-        if (f->s->material_info[i].used && m->textures)
-            e = fmax(e, contrast_of_all(m->textures));
-    }
-    double left = 1.0 - (1.0 + e) * f->materials.most;
-    if (e == 0.0 || !isfinite(e))
-        return e;
-    double seen = f->o->views ? e : 0.0; /* by the eye itself */
-    return left > 0.0 ? seen + e / left : HUGE_VAL;
+    if (!(share > 0.0))
+        return 0.0;
+    return share < 1.0 ? ceil(log(forgotten) / log(share)) : HUGE_VAL;
 }
 
-/* 8-bit pictures have no 0.5 : 127 and 128 of 255 are both as flat as they can be. */
+static double bound_of_textures(const plan_facts *f, bool direct)
+{
+    double e = 0.0, glowing = 0.0;
+    for (int i = 0; i < f->s->material_count; i++) {
+        const material *m = f->s->materials[i];
+        if (!f->s->material_info[i].used || !m->textures)
+            continue;
+        e       = fmax(e, contrast_of_all(m->textures));
+        glowing = fmax(glowing, m->textures->emission.texture ? 1.0 : 0.0);
+    }
+    if (e == 0.0 || !isfinite(e))
+        return e;
+    bool on      = !direct || f->materials.hollow; /* what passes surfaces meets them, too */
+    double times = on ? meetings_of((1.0 + e) * f->materials.most) : 0.0;
+    double seen  = f->o->views ? 1.0 : 0.0; /* by the eye itself */
+    return pow(1.0 + e, times + glowing + seen) - 1.0;
+}
+
+/* So that runs leave them alone, too (materials/look.h). */
 static bool is_flat(const material_textures *t)
 {
-    const float step = 0.5f / 255.0f + 1e-6f;
     float low[4], high[4];
+    bool flat = true;
     if (!t || !t->normal.texture || t->normal_scale == 0.0f)
         return true;
     texture_range(t->normal.texture, low, high);
-    return low[0] >= 0.5f - step && high[0] <= 0.5f + step && low[1] >= 0.5f - step &&
-           high[1] <= 0.5f + step;
+    for (int c = 0; c < 2; c++)
+        flat = flat && 2.0f * low[c] - 1.0f >= -NORMAL_MAP_FLAT &&
+               2.0f * high[c] - 1.0f <= NORMAL_MAP_FLAT;
+    return flat;
 }
 
 static double bound_of_normal_maps(const scene *s)
@@ -291,7 +312,7 @@ double plan_bound(const plan_facts *f, effect e, bool direct)
     case EFFECT_AREA_LIGHTS:
         return direct ? bound_of_points(f, e) : HUGE_VAL;
     case EFFECT_TEXTURES:
-        return bound_of_textures(f);
+        return bound_of_textures(f, direct);
     case EFFECT_NORMAL_MAPS:
         return bound_of_normal_maps(f->s);
     default:

@@ -23,16 +23,22 @@ void plan_print(const plan *p)
         print_bound(e);
         printf("  %s%s\n", e->why, e->missed ? ": results change" : "");
     }
-    printf("bounds: %.2g %% of at most %.2g %%, a fifth of the accuracy asked for (%g %%)\n",
+    printf("bounds: all that is off changes results by at most %.2g %%; %.2g %% is allowed, a "
+           "fifth of "
+           "the accuracy asked for (%g %%)\n",
            100.0 * p->bound, 20.0 * p->accuracy, 100.0 * p->accuracy);
     printf("transport: %s: %s\n", transport_name(p->transport), p->transport_why);
+    command_omission("left out", &p->unfocused);
     for (int i = 0; i < p->weak_count; i++)
         printf("interval not valid: %s\n", p->weak[i]);
 }
 
-void plan_print_transport(const plan *p, const char *of)
+void plan_print_views(const plan *p)
 {
-    printf("transport of %s: %s: %s\n", of, transport_name(p->transport), p->transport_why);
+    const plan_effect *e = &p->effects[EFFECT_ANTIALIASING];
+    printf("antialiasing of views: %s: %s\n", e->on ? "on" : "off", e->why);
+    printf("transport of views: %s: %s\n", transport_name(p->transport), p->transport_why);
+    command_omission("left out of views", &p->unfocused);
 }
 
 void plan_print_json(const plan *p)
@@ -52,6 +58,7 @@ void plan_print_json(const plan *p)
     json_field("accuracy_percent", 100.0 * p->accuracy);
     json_field_text("transport", transport_name(p->transport));
     json_field_text("transport_why", p->transport_why);
+    command_omission_json(&p->unfocused);
     fputs(",\"weak\":[", stdout);
     for (int i = 0; i < p->weak_count; i++) {
         fputs(i ? "," : "", stdout);

@@ -1,5 +1,6 @@
 /* sim/plan_why.c -- why an effect is on or off, with the scene's own numbers. */
 #include "sim/plan_parts.h"
+#include "sim/render.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -27,19 +28,30 @@ static int depth_of(const plan_facts *f, double share)
 
 /* ---- lamps ----------------------------------------------------------------------------------- */
 
+/* What comes from far away, and from all surfaces that glow. */
+static const char *wide_sources(const plan_facts *f)
+{
+    const scene *s = f->s;
+    bool suns = !f->sealed && s->sun_count > 0, skies = !f->sealed && s->dome;
+    if (suns || skies)
+        return suns && skies ? "sun and sky" : suns ? "the sun" : "the sky";
+    return s->glows ? "glowing surfaces" : "";
+}
+
 static void tell_shadows(const plan_facts *f, bool called, plan_effect *to)
 {
     const scene *s = f->s;
-    int clear      = 0;
-    for (int l = 0; l < s->light_count; l++)
-        clear += s->light_info[l].clear;
+    int lamps = scene_lamp_count(s), hidden = 0;
+    const char *wide = wide_sources(f);
+    for (int l = 0; l < lamps; l++)
+        hidden += !s->light_info[l].clear;
     if (called && f->outside)
         say(to, "some sensor is outside of the room: its walls shade it");
-    else if (called && clear < s->light_count)
-        say(to, "something may stand before %d of %d lamps", s->light_count - clear,
-            s->light_count);
+    else if (called && hidden > 0)
+        say(to, "something may stand before %d of %d lamp%s%s%s", hidden, lamps, plural(lamps),
+            wide[0] ? ", and before " : "", wide);
     else if (called)
-        say(to, "%s may be hidden", s->glows ? "glowing surfaces" : "the sky");
+        say(to, "something may stand before %s", wide);
     else if (s->light_count == 0)
         say(to, "there is nothing that could be shaded");
     else
@@ -56,21 +68,32 @@ static int lamps_of_extent(const scene *s, bool of_file)
     return count;
 }
 
+static int lamps_of(const scene *s, bool of_file)
+{
+    int count = 0;
+    for (int l = 0; l < scene_lamp_count(s); l++)
+        count += s->light_info[l].web || !of_file;
+    return count;
+}
+
 static void tell_extent(const plan_facts *f, bool called, plan_effect *to, bool of_file)
 {
     const scene *s   = f->s;
     const char *what = of_file ? "luminaire" : "lamp";
-    int count = lamps_of_extent(s, of_file), all = scene_lamp_count(s);
-    if (called && !to->on && to->bound > 0.0)
-        say(to, "all %d %s%s of extent are points within %.2g %% at every sensor", count, what,
-            plural(count), 100.0 * to->bound);
+    int count = lamps_of_extent(s, of_file), all = lamps_of(s, of_file);
+    bool openings = !of_file && count > 0 && count == lamps_of_extent(s, true);
+    if (called && !to->on && !to->forced && openings)
+        say(to, "no lamp is more than a point, but for openings of luminaires");
+    else if (called && !to->on && !to->forced)
+        say(to, "%d %s%s of extent: point%s within %.2g %% at every sensor", count, what,
+            plural(count), plural(count), 100.0 * to->bound);
     else if (called && count > 0)
-        say(to, "%d of %d lamp%s %s more than a point", count, all, plural(all),
-            count == 1 ? "is" : "are");
+        say(to, "%d of %d %s%s %s more than a point%s", count, all, what, plural(all),
+            count == 1 ? "is" : "are", of_file ? ": light comes from an opening" : "");
     else if (called)
         say(to, "surfaces glow: %d triangles", s->emitter_count);
     else if (all == 0)
-        say(to, "there is no lamp");
+        say(to, "there is no %s", what);
     else
         say(to, "%s",
             of_file    ? "no luminaire's file has an opening"
@@ -96,11 +119,16 @@ static void tell_near_field(const plan_facts *f, bool called, plan_effect *to)
 static void tell_many(const plan_facts *f, bool called, plan_effect *to)
 {
     int lamps = scene_lamp_count(f->s), glowing = f->s->emitter_count;
-    if (called)
-        say(to, "one is chosen of %d lamp%s and %d glowing triangle%s, by what they may give",
+    if (called && glowing > 0 && lamps > 0)
+        say(to, "some of %d lamp%s and %d glowing triangle%s are asked, by what they may give",
             lamps, plural(lamps), glowing, plural(glowing));
+    else if (called)
+        say(to, "some of %d %s are asked, by what they may give", glowing ? glowing : lamps,
+            glowing ? "glowing triangles" : "lamps");
+    else if (lamps == 0)
+        say(to, "there is no lamp");
     else
-        say(to, "%d lamp%s: all are asked", lamps, plural(lamps));
+        say(to, "%d lamp%s: %s asked", lamps, plural(lamps), lamps == 1 ? "it is" : "all are");
 }
 
 /* ---- daylight -------------------------------------------------------------------------------- */
@@ -138,9 +166,14 @@ static void tell_sky(const plan_facts *f, bool called, plan_effect *to)
 {
     if (tell_sealed(f, called, to))
         return;
-    if (called)
-        say(to, "light from %d sk%s, ground included", f->s->sky_count,
-            f->s->sky_count == 1 ? "y" : "ies");
+    int skies = 0;
+    for (int i = 0; i < f->s->sky_count; i++)
+        skies += !f->s->skies[i].ground;
+    const char *ground = skies < f->s->sky_count ? ", and the ground below" : "";
+    if (called && f->s->by_moment)
+        say(to, "it gives light at %d of %d moments%s", skies, f->s->moment_count, ground);
+    else if (called)
+        say(to, "it gives light%s", ground);
     else
         say(to, f->s->moment_count ? "the sky is dark" : "the study has none");
 }
@@ -150,7 +183,7 @@ static void tell_portals(const plan_facts *f, bool called, plan_effect *to)
     if (tell_sealed(f, called, to))
         return;
     if (called)
-        say(to, "daylight is looked for through %s", f->s->portals_from);
+        say(to, "daylight is looked for through openings (%s)", f->s->portals_from);
     else if (f->s->sky_count == 0)
         say(to, "there is no sky to look for");
     else
@@ -183,15 +216,17 @@ static void tell_interreflection(const plan_facts *f, bool called, plan_effect *
         say(to, "no surface gives light on");
 }
 
-/* What is said of materials that are not looked at: light is not followed to them. */
-static void say_unused(const plan_facts *f, plan_effect *to, int count, const char *what)
+/* What is said of materials that are not looked at: light is not followed to them, or there are
+ * none. */
+static void say_unused(const plan_facts *f, plan_effect *to, int count, const char *none)
 {
-    if (count == 0)
-        say(to, "no %s in use", what);
-    else
-        say(to, "%d %s%s, and no light comes back from there", count, what, plural(count));
     if (!scene_is_lit(f->s))
         say(to, "nothing gives light");
+    else if (count == 0)
+        say(to, "%s", none);
+    else
+        say(to, "%d material%s call%s for it, but no light comes back from surfaces", count,
+            plural(count), count == 1 ? "s" : "");
 }
 
 static void tell_mirrors(const plan_facts *f, bool called, plan_effect *to)
@@ -202,7 +237,7 @@ static void tell_mirrors(const plan_facts *f, bool called, plan_effect *to)
             m->mirrors, plural(m->mirrors), m->mirrors == 1 ? "s" : "", 100.0 * m->sharpest,
             depth_of(f, m->sharpest));
     else
-        say_unused(f, to, m->mirrors, "mirror");
+        say_unused(f, to, m->mirrors, "no mirror in use");
 }
 
 static void tell_refraction(const plan_facts *f, bool called, plan_effect *to)
@@ -212,7 +247,7 @@ static void tell_refraction(const plan_facts *f, bool called, plan_effect *to)
         say(to, "%d solid%s of glass bend%s light, in and out: 2 faces each at least", count,
             plural(count), count == 1 ? "s" : "");
     else
-        say_unused(f, to, count, "solid that refracts");
+        say_unused(f, to, count, "no solid in use bends light");
 }
 
 static void tell_textures(const plan_facts *f, bool called, plan_effect *to)
@@ -225,7 +260,7 @@ static void tell_textures(const plan_facts *f, bool called, plan_effect *to)
         say(to, "%d textured material%s, first `%.60s`", m->textured, plural(m->textured),
             m->first_textured);
     else
-        say_unused(f, to, m->textured, "texture");
+        say_unused(f, to, m->textured, "no texture in use");
 }
 
 static void tell_normal_maps(const plan_facts *f, bool called, plan_effect *to)
@@ -236,17 +271,18 @@ static void tell_normal_maps(const plan_facts *f, bool called, plan_effect *to)
     else if (called)
         say(to, "%d normal map%s in use", count, plural(count));
     else
-        say_unused(f, to, count, "normal map");
+        say_unused(f, to, count, "no normal map in use");
 }
 
 static void tell_measured(const plan_facts *f, bool called, plan_effect *to)
 {
     const plan_materials *m = &f->materials;
+    const char *file        = m->first_measured ? strrchr(m->first_measured, '/') : NULL;
     if (called)
         say(to, "%d measured table%s in use, first %.80s", m->measured, plural(m->measured),
-            m->first_measured);
+            file ? file + 1 : m->first_measured);
     else
-        say_unused(f, to, m->measured, "measured table");
+        say_unused(f, to, m->measured, "no measured table in use");
 }
 
 static void tell_tints(const plan_facts *f, bool called, plan_effect *to)
@@ -255,7 +291,7 @@ static void tell_tints(const plan_facts *f, bool called, plan_effect *to)
     if (called)
         say(to, "light goes straight through %d material%s", count, plural(count));
     else
-        say_unused(f, to, count, "surface that light goes straight through");
+        say_unused(f, to, count, "light goes straight through no surface");
 }
 
 static void tell_color(const plan_facts *f, bool called, plan_effect *to)
@@ -271,13 +307,22 @@ static void tell_color(const plan_facts *f, bool called, plan_effect *to)
 static void tell_motion(const plan_facts *f, bool called, plan_effect *to)
 {
     (void)called;
-    say(to, f->o->series ? "nothing moves from moment to moment" : "there is one moment alone");
+    say(to, f->o->series ? "nothing moves from moment to moment" : "there is but one moment");
 }
 
 static void tell_antialiasing(const plan_facts *f, bool called, plan_effect *to)
 {
-    (void)f;
-    say(to, called ? "rays lie all over their pixel" : "no view is drawn");
+    const int first = SCRAMBLES * VIEW_FIRST_SAMPLES << (LEAST_ROUNDS - 1);
+    if (!f->o->views)
+        say(to, "no view is drawn");
+    else if (!called)
+        say(to, "nothing gives light: all is black");
+    else
+        say(to,
+            "%d rays all over each pixel, then %d, %d and so on, until %d %% of the pixels are "
+            "within %g %%; %d rays at most",
+            first, 2 * first, 4 * first, VIEW_NEEDED_PERCENT, 100.0 * f->accuracy,
+            SCRAMBLES * MOST_SAMPLES);
 }
 
 void plan_tell(const plan_facts *f, effect e, bool called, plan_effect *to)
@@ -306,5 +351,9 @@ void plan_tell(const plan_facts *f, effect e, bool called, plan_effect *to)
     char why[sizeof to->why];
     memcpy(why, to->why, sizeof why);
     if (to->forced && (to->on || called) && !(e == EFFECT_INTERREFLECTION && f->o->direct_only))
-        say(to, "%s: %.140s", to->on ? "asked for" : "left out as asked", why);
+        say(to, "%s%.140s",
+            !to->on  ? "left out as asked: "
+            : called ? "asked for: "
+                     : "asked for, though ",
+            why);
 }

@@ -132,9 +132,9 @@ static bool run(arena *a, arena *scratch, view_run_state *v, view_result *out, l
                         .channels = CHANNELS + before_plain(v) + OF_LAYER * v->layers,
                         .judged   = 1 + before_plain(v),
                         .accuracy = (out->asked - v->o->bound) * (v->maps.indirect ? 0.9 : 1.0),
-                        .needed   = 0.98,
+                        .needed   = VIEW_NEEDED_PERCENT / 100.0,
                         .floor    = FLOOR_LOG_MEAN,
-                        .first_samples = 1,
+                        .first_samples = VIEW_FIRST_SAMPLES,
                         .only_samples  = v->o->only_samples,
                         .threads       = v->o->threads,
                         .deadline      = v->o->deadline,
@@ -178,6 +178,7 @@ bool view_run(arena *a, const scene *s, const study_view *view, const run_option
                                         .asked = isnan(o->accuracy) ? VIEW_DEFAULT_PERCENT / 100.0 : o->accuracy,
                                         .left_to_chance = scene_left_to_chance(s, o->direct_only) };
     v.asked            = out->asked;
+    out->unfocused     = scene_left_unfocused(s, v.asked, o->direct_only);
     progress_begin(o->progress, view->name);
     bool good = run(a, &scratch, &v, out, err);
     if (!good && err->code == ERR_INTERRUPTED)

@@ -5,7 +5,11 @@
 #include "sim/camera.h"
 #include "sim/grid.h"
 
-enum { VIEW_DEFAULT_PERCENT = 10 };
+enum {
+    VIEW_DEFAULT_PERCENT = 10,
+    VIEW_NEEDED_PERCENT  = 98, /* of pixels, that must be as accurate as asked for */
+    VIEW_FIRST_SAMPLES   = 1,  /* rays a pixel and scramble, in the first round */
+};
 
 /* What one group of lamps gives, undimmed: as in view_result. */
 typedef struct view_layer {
@@ -30,6 +34,7 @@ typedef struct view_result {
     double log_average;         /* cd/m^2, of the pixels that are not black */
     run_end end;                /* why it ended; what is here is complete all the same */
     const char *left_to_chance; /* why the intervals are not valid; NULL: they are */
+    scene_omission unfocused;   /* light that is not looked for */
     double seconds;
     int64_t rays;
 } view_result;

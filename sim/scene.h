@@ -96,8 +96,9 @@ typedef struct light_set {
 /* The shares of light that come to surfaces, from where they go on, otherwise than straight or by
  * mirror images: measured with some thousand particles. */
 typedef struct scene_ways {
-    double focused; /* by round mirrors, and by solids that refract */
-    double narrow;  /* by way of narrow lobes */
+    double focused;    /* by round mirrors, and by solids that refract */
+    double narrow;     /* by way of narrow lobes */
+    double focused_lm; /* lm: what the first share comes to, of lights as the scene holds them */
 } scene_ways;
 
 /* Less than that share does not matter: a tenth of the accuracy that is promised if none is asked
@@ -191,6 +192,13 @@ typedef struct scene {
 /* Whether so much light is focused that it matters to results of that accuracy: then they want a
  * map of it. */
 bool scene_focuses(const scene *s, double accuracy);
+
+/* Focused light that a run of that accuracy does not look for, as too little: shares as in
+ * scene_ways, and lm. All 0: there is none, or there is a map of it. */
+typedef struct scene_omission {
+    double lamps, suns, lamps_lm, suns_lm;
+} scene_omission;
+scene_omission scene_left_unfocused(const scene *s, double accuracy, bool direct_only);
 
 /* The light that samples may miss without an interval telling, in words; NULL if there is none. */
 const char *scene_left_to_chance(const scene *s, bool direct_only);

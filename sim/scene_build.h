@@ -124,8 +124,8 @@ bool scene_named_parts(scene_build *b, int i, const named_patterns *p, named_par
 /* The scene's numbers of the file's materials in a placement of scene entry i. */
 const uint32_t *scene_made_of(const scene_build *b, int i, uint32_t placement);
 
-/* The least index that makers of glass take: such a pane reflects nothing to speak of. */
-#define PANE_LEAST_IOR 1.0001f
+/* The least index that panes are made of: such a one reflects nothing. */
+#define PANE_LEAST_IOR 1.0f
 
 /* ---- between the files that make materials --------------------------------------------------- */
 

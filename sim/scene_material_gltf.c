@@ -5,7 +5,8 @@
  *     unlit                                  matt, reflectance = base colour
  *     clear > 0, with a volume               solid: smooth border of ior; absorption within
  *                                            -ln(attenuationColor) / attenuationDistance,
- *                                            what passes the border times base colour * clear
+ *                                            what passes the border times base colour * clear;
+ *                                            of index 1 and without absorption, nothing but that
  *     clear = 1, roughness < 0.03            pane of ior with a transmittance at normal incidence
  *                                            of base colour * (1 - R) / (1 + R); as a plate that
  *                                            is closed (both faces modelled): one pane a plate
@@ -31,11 +32,11 @@
 #include "core/color.h"
 #include "sim/scene_build.h"
 
-static const float smooth          = 0.03f;          /* a roughness that nobody sees in a pane */
-static const float nearly_smooth   = 0.1f;           /* whose lobe of transmission is narrow yet */
-static const float rough           = 0.999f;         /* 1 as a slider gives it */
-static const float least_ior       = PANE_LEAST_IOR; /* that makers of glass take */
-static const float most_absorption = 1e9f;           /* 1/m: black */
+static const float smooth          = 0.03f;   /* a roughness that nobody sees in a pane */
+static const float nearly_smooth   = 0.1f;    /* whose lobe of transmission is narrow yet */
+static const float rough           = 0.999f;  /* 1 as a slider gives it */
+static const float least_ior       = 1.0001f; /* of solids */
+static const float most_absorption = 1e9f;    /* 1/m: black */
 
 /* ---- what a material is ---------------------------------------------------------------------- */
 
@@ -126,26 +127,34 @@ static float absorption_of(float color, double distance)
 /* As float rounds it, no more than a pane can have. */
 static float most_of_pane(double ior) { return (float)(pane_most(ior) * (1.0 - 1e-7)); }
 
+/* What light passes straight, with what it loses at each border alone: in place of a solid that
+ * bends it, or for one that does not. */
+static const material *make_straight(scene_build *b, const material_source *s, vec3 tint)
+{
+    pane_desc d = { .transmittance = tint,
+                    .ior           = PANE_LEAST_IOR,
+                    .extra         = material_extra_of(s->from) };
+    return material_pane(b->a, &d, b->err);
+}
+
+static bool is_asked_for(const scene_build *b, effect e) { return b->options->on >> e & 1; }
+
 static const material *make_solid(scene_build *b, const material_source *s)
 {
     const gltf_material *m     = s->from;
     const material_textures *t = textures_of(m);
     vec3 c                     = m->attenuation_color;
     double distance            = (double)m->attenuation_distance * s->scale;
-    vec3 tint = v3_scale(m->base_color, clearness(m) * mean_of(&t->transmission).x);
-    if (is_left_out(b, EFFECT_REFRACTION))
-        return material_pane(
-            b->a,
-            &(pane_desc){ .transmittance = v3_scale(tint, most_of_pane((double)least_ior)),
-                          .ior           = least_ior,
-                          .extra         = material_extra_of(m) },
-            b->err);
-    dielectric_desc d = { .ior        = fmaxf(m->ior, least_ior),
-                          .absorption = { absorption_of(c.x, distance),
-                                          absorption_of(c.y, distance),
-                                          absorption_of(c.z, distance) },
-                          .tint       = tint,
-                          .extra      = material_extra_of(m) };
+    dielectric_desc d          = {
+                 .ior        = fmaxf(m->ior, least_ior),
+                 .absorption = { absorption_of(c.x, distance), absorption_of(c.y, distance),
+                                 absorption_of(c.z, distance) },
+                 .tint       = v3_scale(m->base_color, clearness(m) * mean_of(&t->transmission).x),
+                 .extra      = material_extra_of(m)
+    };
+    bool acts = m->ior > 1.0f || !is_black(d.absorption);
+    if (is_left_out(b, EFFECT_REFRACTION) || (!acts && !is_asked_for(b, EFFECT_REFRACTION)))
+        return make_straight(b, s, d.tint);
     tell(b, s, m->roughness >= smooth || t->surface.texture,
          "the rough border of a solid is taken as smooth");
     tell(b, s, clearness(m) < 1.0f || t->transmission.texture,
@@ -157,10 +166,10 @@ static const material *make_pane(scene_build *b, const material_source *s, scene
 {
     const gltf_material *m = s->from;
     const glass_shapes *g  = s->glass;
-    float ior              = fmaxf(m->ior, least_ior);
+    float ior              = fmaxf(m->ior, PANE_LEAST_IOR);
     float most             = most_of_pane((double)ior);
     if (is_left_out(b, EFFECT_MIRRORS))
-        ior = least_ior;
+        ior = PANE_LEAST_IOR;
     info->box   = g->plates && !g->bodies && !g->open;
     pane_desc d = { .transmittance = v3_scale(m->base_color, most),
                     .ior           = ior,

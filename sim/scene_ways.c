@@ -145,8 +145,11 @@ static void add_fate(tally *t, const fate *f)
 
 static scene_ways ways_of(const tally *t)
 {
-    return t->all > 0.0 ? (scene_ways){ t->focused / t->all, t->narrow / t->all }
-                        : (scene_ways){ 0 };
+    if (!(t->all > 0.0))
+        return (scene_ways){ 0 };
+    return (scene_ways){ .focused    = t->focused / t->all,
+                         .narrow     = t->narrow / t->all,
+                         .focused_lm = LUMENS_PER_WATT * t->focused / PARTICLES };
 }
 
 static void tell(const scene *s, notices *n, const char *whose, double share, const char *how,
@@ -228,4 +231,14 @@ bool scene_focuses(const scene *s, double accuracy)
 {
     double least = fmax(SHARE_THAT_MATTERS, 0.1 * accuracy);
     return s->by_lamps.focused > least || s->by_suns.focused > least;
+}
+
+scene_omission scene_left_unfocused(const scene *s, double accuracy, bool direct_only)
+{
+    if (direct_only || !s->reflects || scene_focuses(s, accuracy))
+        return (scene_omission){ 0 };
+    return (scene_omission){ .lamps    = s->by_lamps.focused,
+                             .suns     = s->by_suns.focused,
+                             .lamps_lm = s->by_lamps.focused_lm,
+                             .suns_lm  = s->by_suns.focused_lm };
 }

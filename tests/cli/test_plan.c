@@ -1,6 +1,7 @@
 /* tests/cli/test_plan.c -- lux4 plan, and how --no, --only and --transport rule other commands. */
 #include "sim/effects.h"
 #include "tests/folder.h"
+#include "tests/lab_sphere.h"
 #include "tests/program.h"
 #include "tests/test.h"
 
@@ -38,8 +39,11 @@ TEST(a_plan_is_a_table_with_reasons_and_closing_lines)
         assert_non_null(strstr(r.out, effect_name((effect)e)));
     assert_non_null(strstr(r.out, "the room has no opening, and all sensors are within"));
     assert_non_null(strstr(r.out, "1 of 1 lamp is more than a point"));
-    assert_non_null(strstr(r.out, "bounds: 0 % of at most 4 %, a fifth of the accuracy"));
+    assert_non_null(strstr(r.out, "bounds: all that is off changes results by at most 0 %; 4 % is "
+                                  "allowed, a fifth of the accuracy asked for (20 %)"));
     assert_non_null(strstr(r.out, "transport: path: 12 sensors"));
+    assert_non_null(strstr(r.out, "antialiasing of views: on: 32 rays all over each pixel"));
+    assert_non_null(strstr(r.out, "transport of views: path: 48 pixels"));
     assert_int_equal(count_names(folder), 1);
     program_free(&r);
     folder_free(folder);
@@ -113,6 +117,43 @@ TEST(words_that_are_no_effect_or_transport_are_refused)
     LUX4_FAILS(NULL, 2, "none.yaml", "plan", "none.yaml");
 }
 
+/* Of the lamp's 1000 lm a ball of glass focuses 1.2 %, which at 20 % is not looked for. */
+TEST(focused_light_that_is_left_out_is_told_in_lumens)
+{
+    static const char says[] = "lm of lamps, 1.2 % of their light, that round mirrors or solids of "
+                               "glass focus: too little to look for at this accuracy";
+    char *folder             = folder_of_study(
+                    "lux4: 1\nroom: {size: [5, 3, 3], reflectance: 0.3}\naccuracy: 20%\nscene: ball.gltf\n"
+                                "lights: [{type: point, at: [0.2, 1.5, 1.5], lumens: 1000}]\n"
+                                "grids: [{name: g, on: room, height: 0.5, spacing: 1}]\n"
+                                "views: [{name: v, eye: [0.5, 0.5, 1.5], target: [4, 3, 1], fov: 60, size: [8, 6]}]\n");
+    lab l            = { .folder = folder };
+    program_result r = { 0 };
+    lab_sphere(&l, "ball.gltf", (dvec3){ 2.5, 1.5, 1.5 }, 0.5, 32,
+               "\"name\":\"Ball\",\"pbrMetallicRoughness\":{\"metallicFactor\":0,"
+               "\"roughnessFactor\":0},\"extensions\":{\"KHR_materials_transmission\":{"
+               "\"transmissionFactor\":1},\"KHR_materials_volume\":{\"thicknessFactor\":1}}");
+    LUX4(folder, 0, &r, "plan", "study.yaml");
+    assert_non_null(strstr(r.out, says));
+    LUX4(folder, 0, &r, "plan", "study.yaml", "--accuracy", "5%");
+    assert_null(strstr(r.out, "left out"));
+    LUX4(folder, 0, &r, "plan", "study.yaml", "--json");
+    assert_true(json_is_valid(r.out));
+    assert_near(json_number_at(r.out, "focused_of_lamps_left_out_lm"), 12.0, 0.05);
+    assert_near(json_number_at(r.out, "focused_of_lamps_left_out_percent"), 1.2, 0.05);
+    LUX4(folder, 0, &r, "grid", "study.yaml");
+    assert_non_null(strstr(r.out, says));
+    LUX4(folder, 0, &r, "grid", "study.yaml", "--json", "--overwrite");
+    assert_near(json_number_at(r.out, "grids.0.focused_of_lamps_left_out_lm"), 12.0, 0.05);
+    LUX4(folder, 0, &r, "render", "study.yaml", "--accuracy", "40%");
+    assert_non_null(strstr(r.out, says));
+    LUX4(folder, 0, &r, "render", "study.yaml", "--accuracy", "40%", "--json", "--overwrite");
+    assert_near(json_number_at(r.out, "views.0.focused_of_lamps_left_out_lm"), 12.0, 0.05);
+    program_free(&r);
+    arena_clear(&l.a);
+    folder_free(folder);
+}
+
 /* In a room with a window, which is dark at night; three moments of one day. */
 TEST(a_series_is_planned_for_as_a_whole)
 {
@@ -140,6 +181,7 @@ int main(void)
         cmocka_unit_test(what_is_forced_off_is_told_of),
         cmocka_unit_test(all_forced_on_is_no_warning_and_the_same_within_intervals),
         cmocka_unit_test(words_that_are_no_effect_or_transport_are_refused),
+        cmocka_unit_test(focused_light_that_is_left_out_is_told_in_lumens),
         cmocka_unit_test(a_series_is_planned_for_as_a_whole),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

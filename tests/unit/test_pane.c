@@ -194,6 +194,26 @@ TEST(the_most_that_a_pane_can_be_is_told)
     arena_clear(&a);
 }
 
+/* Of index 1 nothing is reflected: all goes on that is not absorbed, and of black glass nothing. */
+TEST(without_a_border_nothing_comes_back)
+{
+    arena a                  = { 0 };
+    static const float all[] = { 1.0f, 0.25f, 0.0f };
+    for (int i = 0; i < 3; i++) {
+        const material *m = make(&a, (vec3){ all[i], all[i], all[i] }, 1.0f, false);
+        material_check_furnace(m);
+        material_check_packets(m);
+        assert_true(v3_dot(m->reflectance, m->reflectance) == 0.0f);
+        for (double theta = 0; theta < 90; theta += 7) {
+            shares of = at(m, theta, true);
+            assert_near(of.passed, pow((double)all[i], 1.0 / cos(theta * pi / 180.0)), 1e-5);
+            assert_true(of.reflected == 0.0);
+        }
+    }
+    assert_near(pane_most(1.0), 1.0, 0.0);
+    arena_clear(&a);
+}
+
 TEST(what_makes_no_sense_is_refused)
 {
     arena a              = { 0 };
@@ -205,7 +225,7 @@ TEST(what_makes_no_sense_is_refused)
     d.transmittance.z = NAN;
     assert_null(material_pane(&a, &d, &err));
     d     = good;
-    d.ior = 1;
+    d.ior = 0.999f;
     assert_null(material_pane(&a, &d, &err));
     assert_int_equal(err.code, ERR_ARGUMENT);
     d                = good;
@@ -230,6 +250,7 @@ int main(void)
         cmocka_unit_test(back_sides_of_boxes_do_nothing),
         cmocka_unit_test(transmittance_is_that_of_diffuse_light),
         cmocka_unit_test(the_most_that_a_pane_can_be_is_told),
+        cmocka_unit_test(without_a_border_nothing_comes_back),
         cmocka_unit_test(what_makes_no_sense_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -97,6 +97,30 @@ TEST(direct_light_alone_is_no_miss)
     arena_clear(&memory);
 }
 
+/* A sun is no lamp; materials that light does not come back from are counted. */
+TEST(reasons_count_what_they_name)
+{
+    static const char sunny[] =
+        "lux4: 1\nroom: {size: [4, 3, 2.5], reflectance: 0.5, windows: [{wall: south, at: [1, 1], "
+        "size: [2, 1]}]}\nsky: {model: clear, horizontal: 5000, sun_illuminance: 20000, sun_at: "
+        "{azimuth: 180, elevation: 40}}\n" GRID;
+    plan p;
+    plan_of(sunny, (plan_options){ 0 }, &p);
+    assert_why(&p, EFFECT_SHADOWS, true, "something may stand before sun and sky");
+    assert_why(&p, EFFECT_MANY_LIGHTS, false, "there is no lamp");
+    assert_why(&p, EFFECT_NEAR_FIELD, false, "there is no luminaire");
+    assert_why(&p, EFFECT_SKY, true, "it gives light, and the ground below");
+    assert_why(&p, EFFECT_PORTALS, true, "looked for through openings (1 room window)");
+    plan_of(ROOM("0.5") POINT "materials: [{match: 'room: floor', mirror: 0.5}]\n" GRID,
+            (plan_options){ .direct_only = true }, &p);
+    assert_why(&p, EFFECT_MIRRORS, false,
+               "1 material calls for it, but no light comes back from surfaces");
+    plan_of(ROOM("0.5") POINT GRID, (plan_options){ .has_only = true, .only = ~0u }, &p);
+    assert_why(&p, EFFECT_SUN, true, "asked for, though the study has none");
+    assert_why(&p, EFFECT_INTERREFLECTION, true, "asked for: 100 % of");
+    arena_clear(&memory);
+}
+
 /* All that is off, but for what the user says, comes to less than a fifth of the accuracy; without
  * room for it the bound of the disk alone keeps it on. */
 TEST(bounds_stay_below_a_fifth_of_the_accuracy)
@@ -113,7 +137,7 @@ TEST(bounds_stay_below_a_fifth_of_the_accuracy)
     assert_true(p.effects[EFFECT_AREA_LIGHTS].bound > 0.0);
     assert_near(p.bound, sum, 1e-12);
     assert_true(p.bound < 0.02);
-    assert_why(&p, EFFECT_AREA_LIGHTS, false, "all 1 lamp of extent are points within ");
+    assert_why(&p, EFFECT_AREA_LIGHTS, false, "1 lamp of extent: point within ");
     assert_why(&p, EFFECT_INTERREFLECTION, false, "no surface reflects more than 0.0001 %");
 
     double both = p.bound, disk = p.effects[EFFECT_AREA_LIGHTS].bound;
@@ -172,6 +196,7 @@ int main(void)
         cmocka_unit_test(areas_are_those_of_the_surfaces),
         cmocka_unit_test(the_user_has_the_last_word),
         cmocka_unit_test(direct_light_alone_is_no_miss),
+        cmocka_unit_test(reasons_count_what_they_name),
         cmocka_unit_test(bounds_stay_below_a_fifth_of_the_accuracy),
         cmocka_unit_test(views_are_planned_for_as_views),
         cmocka_unit_test(transport_is_chosen_by_places_and_surfaces),

@@ -73,6 +73,29 @@ TEST(all_that_meets_a_ball_of_clear_glass_is_focused)
     assert_null(scene_left_to_chance(s, false));
 }
 
+/* All that meets the ball ends on surfaces. */
+TEST(focused_light_is_told_in_lumens)
+{
+    const scene *s = with_ball(glass, LAMP);
+    assert_near(s->by_lamps.focused_lm, 1000.0 * share_met(), 0.02);
+    assert_true(s->by_suns.focused_lm == 0.0);
+}
+
+/* From 2.3 m the ball focuses 1.2 %: at 10 % a map is made of it, at 15 % it is left out. */
+TEST(light_that_is_not_worth_a_map_is_left_out_and_told)
+{
+    const double share = 0.5 * (1.0 - sqrt(1.0 - 0.25 / (2.3 * 2.3)));
+    const scene *s =
+        with_ball(glass, "lights: [{type: point, at: [0.2, 1.5, 1.5], lumens: 1000}]\n");
+    assert_true(scene_focuses(s, 0.10));
+    assert_true(scene_left_unfocused(s, 0.10, false).lamps_lm == 0.0);
+    scene_omission o = scene_left_unfocused(s, 0.15, false);
+    assert_near(o.lamps, share, 0.05); /* by some 200 of 16384 particles, drawn evenly */
+    assert_near(o.lamps_lm, 1000.0 * share, 0.05);
+    assert_true(o.suns == 0.0 && o.suns_lm == 0.0);
+    assert_true(scene_left_unfocused(s, 0.15, true).lamps_lm == 0.0); /* nor is it asked for */
+}
+
 TEST(what_a_round_mirror_leaves_is_focused)
 {
     const scene *s =
@@ -137,6 +160,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         CASE(panes_and_plane_mirrors_focus_nothing),
         CASE(all_that_meets_a_ball_of_clear_glass_is_focused),
+        CASE(focused_light_is_told_in_lumens),
+        CASE(light_that_is_not_worth_a_map_is_left_out_and_told),
         CASE(what_a_round_mirror_leaves_is_focused),
         CASE(a_matt_ball_focuses_nothing),
         CASE(sunlight_by_narrow_lobes_is_told_of),

@@ -32,13 +32,14 @@ typedef struct texture_slot {
 
 typedef enum alpha_mode { ALPHA_OPAQUE, ALPHA_MASK, ALPHA_BLEND } alpha_mode;
 
+/* x and y of a normal map, of -1 ... 1, that are no slope: of 8 bits neither 127 nor 128 is 0, and
+ * both stand for it. */
+#define NORMAL_MAP_FLAT (1.0f / 255.0f + 2e-6f)
+
 /* Which of the texture's channels is meant is glTF's affair: color RGB, alpha A of `base`;
  * roughness G and metallic B of `surface`; transmission R; specular_weight A; normal RGB, of which
  * 0 ... 1 is -1 ... 1, x along u' and y against v': bumps are turned and mirrored with their
  * picture. Shares are [0, 1] and colours >= 0 whatever the pictures hold. */
-#define NORMAL_MAP_FLAT                                                                            \
-    (1.0f / 255.0f + 2e-6f) /* x and y that are no slope: of 8 bits neither                        \
-                               127 nor 128 is 0, and both stand for it */
 typedef struct material_textures {
     texture_slot base, surface, emission, transmission, specular_weight, specular_color, normal;
     float normal_scale; /* of the normal map's x and y */

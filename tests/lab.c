@@ -4,6 +4,7 @@
 #include "tests/folder.h"
 #include "tests/gltf_text.h"
 #include "tests/test.h"
+#include "tests/transports.h"
 
 #include <stdio.h>
 
@@ -165,6 +166,23 @@ void lab_check(const char *what, const grid_result *r, const double *want, doubl
             fail_msg("%s, sensor %d: %.9g lx +- %.3g is not as sure as asked for", what, k,
                      r->illuminance[k], r->half_width[k]);
     }
+}
+
+void lab_check_all_ways(const char *what, const char *yaml, lab *l, const lab_probe *p, int count,
+                        const double *want, double exact, double accuracy)
+{
+    for (int t = 0; t < TRANSPORTS; t++)
+        for (int d = 0; d < ROULETTE_DEPTHS; d++) {
+            grid_result r;
+            run_options o = { .accuracy      = accuracy,
+                              .seed          = (uint32_t)(11 + 7 * d),
+                              .transport     = transports[t],
+                              .roulette_from = roulette_depths[d] };
+            lab_measure(l, yaml, NULL, p, count, &o, &r);
+            /* Maps do not grow finer for one sensor's sake, and what they smooth is told */
+            double told = o.transport == TRANSPORT_MAPS ? 2.0 : 1.0;
+            lab_check(what, &r, want, exact, told * accuracy);
+        }
 }
 
 /* ---- Lambert's formula ----------------------------------------------------------------------- */

@@ -57,7 +57,8 @@ void lab_measure(lab *l, const char *yaml, const char *grid, const lab_probe *p,
 void lab_check(const char *what, const grid_result *r, const double *want, double exact,
                double accuracy);
 
-/* The same by every transport with every depth of roulette (transports.h), each of another seed. */
+/* The same by every transport with every depth of roulette (transports.h), each of another seed,
+ * but for the one map. */
 void lab_check_all_ways(const char *what, const char *yaml, lab *l, const lab_probe *p, int count,
                         const double *want, double exact, double accuracy);
 

@@ -7,7 +7,7 @@
 #
 #   WIDTH=1 one ray at a time: the scalar baseline of every speed-up (also: 8, with AVX2)
 #   SAN=1   address and undefined-behaviour sanitizers     WERROR=1 warnings are errors
-#   DEBUG=1 -O1, for a debugger                            NATIVE=1 for this very processor
+#   DEBUG=1 -O1 -g, for a debugger                         NATIVE=1 for this very processor
 #   WITHOUT="daylight mirrors textures tables"  a build that lacks these (core/without.h)
 #   V=1     show the commands                              CC=clang CXX=clang++
 
@@ -35,6 +35,9 @@ OPT += $(if $(filter 1,$(WIDTH)),-fno-tree-vectorize -fno-tree-slp-vectorize)
 SANS := -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 SANS := $(if $(SAN)$(FUZZ),$(SANS)) $(if $(FUZZ),-fsanitize=fuzzer-no-link)
 
+# A quarter of the time to build, where nobody looks at it
+DEBUG_INFO := $(if $(SAN)$(DEBUG)$(FUZZ),-g)
+
 # No fused multiply-adds: the same numbers on every machine, whatever the width.
 FP   := -ffp-contract=off -fno-math-errno -fno-trapping-math
 WARN := -Wall -Wextra -Wshadow -Wundef -Wvla -Wdouble-promotion -Wpointer-arith -Wwrite-strings \
@@ -49,22 +52,27 @@ endif
 
 CPPFLAGS := -I. $(foreach w,$(WITHOUT),-DWITHOUT_$(shell echo $w | tr a-z A-Z)) -MMD -MP -DPACKET_WIDTH=$(WIDTH) -DLUX4_VERSION='"$(VERSION)"' \
             -DLUX4_LIBDIR='"$(PREFIX)/lib/lux4"' $(PKG_CFLAGS)
-CFLAGS   := -std=gnu17 -g $(OPT) $(FP) $(SANS) $(WARN) $(WARN_C)
-CXXFLAGS := -std=c++17 -g $(OPT) $(FP) $(SANS) $(WARN)
+CFLAGS   := -std=gnu17 $(DEBUG_INFO) $(OPT) $(FP) $(SANS) $(WARN) $(WARN_C)
+CXXFLAGS := -std=c++17 $(DEBUG_INFO) $(OPT) $(FP) $(SANS) $(WARN)
 LDFLAGS  := $(SANS) -Wl,--as-needed
 LDLIBS   := $(PKG_LIBS) -lm -ldl -pthread
+
+# C++ is libraries' alone, and knows no packets: one object does for all widths.
+SHIM_FLAGS := $(filter-out -DPACKET_WIDTH=% -march=% -fno-tree-%,$(CPPFLAGS) $(CXXFLAGS))
 
 # ---- what there is to build -----------------------------------------------------------------
 
 TOOL  := $(if $(findstring clang,$(CC)),clang-)
 KIND  := $(TOOL)$(if $(FUZZ),fuzz,$(if $(SAN),san,$(if $(DEBUG),debug,$(if $(NATIVE),native,release))))$(if $(WITHOUT),-without)
 B     := build/$(KIND)-$(WIDTH)
+SHIMS := build/$(KIND)-shims
 SHIM  := core/image_oiio.cpp
 SRC   := $(filter-out sim/main.c $(SHIM),$(wildcard $(LAYERS:%=%/*.c) $(LAYERS:%=%/*.cpp)))
 # Of these there is one object for each kernel (sim/path_kernel.h)
 KERNELS := 0 1 2 3
 KERNEL_SRC := $(filter-out %/path_tracer.c,$(filter sim/path.c sim/path_%.c,$(SRC)))
-OBJ   := $(patsubst %,$B/%.o,$(filter-out $(KERNEL_SRC),$(SRC))) \
+OBJ   := $(patsubst %,$B/%.o,$(filter-out $(KERNEL_SRC) %.cpp,$(SRC))) \
+         $(patsubst %,$(SHIMS)/%.o,$(filter %.cpp,$(SRC))) \
          $(foreach k,$(KERNELS),$(KERNEL_SRC:%.c=$B/%.k$k.o))
 AIDS  := $(wildcard tests/*.c)
 TESTS := $(patsubst %.c,$B/%,$(wildcard tests/*/test_*.c))
@@ -143,9 +151,12 @@ $B/make_brdf: data/materials/make_brdf.c $B/flags
 build/bench/office-%.glb: $B/make_office
 	@mkdir -p $(@D); $< --bench $* $@
 
-$(PLUG): $(SHIM) $B/flags
+$(SHIMS)/liblux4_oiio.so: $(SHIM) $(SHIMS)/flags
 	@mkdir -p $(@D); echo "SO   $@"
-	$Q$(CXX) $(CPPFLAGS) $(PLUGIN_CFLAGS) $(CXXFLAGS) -fPIC -shared $(LDFLAGS) $< $(PLUGIN_LIBS) -o $@
+	$Q$(CXX) $(SHIM_FLAGS) $(PLUGIN_CFLAGS) -fPIC -shared $(LDFLAGS) $< $(PLUGIN_LIBS) -o $@
+$(PLUG): $(SHIMS)/liblux4_oiio.so
+	@mkdir -p $(@D)
+	$Qln -f $< $@
 
 # What packets are measured against: plain scalar C, and of some the same with the x87's arithmetic
 PLAIN := $(patsubst %.c,$B/%,$(wildcard tests/bench/plain_*.c))
@@ -171,18 +182,19 @@ $B/%.k$1.o: %.c $B/flags
 endef
 $(foreach k,$(KERNELS),$(eval $(call KERNEL_RULE,$k)))
 
-$B/%.cpp.o: %.cpp $B/flags
+$(SHIMS)/%.cpp.o: %.cpp $(SHIMS)/flags
 	@mkdir -p $(@D); echo "CXX  $<"
-	$Q$(CXX) $(CPPFLAGS) $(CXXFLAGS) -c $< -o $@
+	$Q$(CXX) $(SHIM_FLAGS) -c $< -o $@
 
 # Other flags, other objects; other sources or libraries, other programs.
-$B/flags: TELL = $(CC) $(CXX) $(CPPFLAGS) $(CFLAGS) $(CXXFLAGS)
+$B/flags: TELL = $(CC) $(CPPFLAGS) $(CFLAGS)
+$(SHIMS)/flags: TELL = $(CXX) $(SHIM_FLAGS)
 $B/links: TELL = $(CXX) $(LDFLAGS) $(LDLIBS) $(SRC) $(AIDS)
-$B/flags $B/links: FORCE
+$B/flags $(SHIMS)/flags $B/links: FORCE
 	@mkdir -p $(@D); echo '$(subst ','\'',$(TELL))' | cmp -s - $@ || echo '$(subst ','\'',$(TELL))' > $@
 
 -include $(OBJ:.o=.d) $(patsubst %,$B/%.d,$(AIDS) sim/main.c) $(addsuffix .c.d,$(TESTS) $(LONG) $(BENCH) $(FUZZERS))
--include $(PLUG:.so=.d) $(patsubst %.o,%.d,$(MODEL) $(OFFICE) $(CAR) $(GLASS) $(COURT) $(LAYER)) $(PLAIN:=.d) $(X87_PLAIN:=_387.d)
+-include $(SHIMS)/liblux4_oiio.d $(patsubst %.o,%.d,$(MODEL) $(OFFICE) $(CAR) $(GLASS) $(COURT) $(LAYER)) $(PLAIN:=.d) $(X87_PLAIN:=_387.d)
 
 # What is missing is installed for check and demo, which set a machine up; else it is named.
 build/pkg.mk: Makefile

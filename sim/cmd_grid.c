@@ -193,7 +193,7 @@ static int run_one(const command_context *c, const scene *s, int index, totals *
     plan_apply(&t->plan, &o);
     if (!command_maps(c, s, s->study->grid_count, &o, &t->map, err) ||
         !grid_run(&of_grid, s, &s->study->grids[index], &o, &r, err))
-        code = exit_code_of(err, true);
+        code = exit_code_of(err, false); /* files are read by now: maps are written */
     if (code == EXIT_DONE) {
         terminal_clear(c->terminal);
         if (c->line->json)

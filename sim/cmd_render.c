@@ -60,7 +60,7 @@ static int run_view(const command_context *c, const scene *s, int index, totals 
     plan_apply(&all->plan, &o);
     if (!png || !command_maps(c, s, s->study->view_count, &o, &all->map, err) ||
         !view_run(&of_view, s, v, &o, &r, err))
-        code = exit_code_of(err, true);
+        code = exit_code_of(err, false); /* files are read by now: maps are written */
     if (code == EXIT_DONE) {
         terminal_clear(c->terminal);
         if (!view_write_exr(exr, s, &r, c->line->half, c->notices, err) ||

@@ -141,11 +141,16 @@ static void keep_or_drop_scene(cost_setting *s)
 
 /* ---- runs ------------------------------------------------------------------------------------ */
 
-/* That one setting cannot run is no reason to stop. */
+/* That one setting cannot run is no reason to stop; nor to lose the others when the user stops. */
 static bool pass_over(cost_work *w, cost_setting *s, const lux_error *why)
 {
-    if (why->code == ERR_MEMORY || why->code == ERR_INTERRUPTED)
+    if (why->code == ERR_MEMORY)
         return failed(w->err, why->code, "%s", why->text);
+    if (why->code == ERR_INTERRUPTED) {
+        w->stopped = true;
+        s->dropped |= s->runs == 0;
+        return true;
+    }
     notice_add(w->notices, "cost: %s is left out: %s", s->text, why->text);
     s->dropped = true;
     return true;

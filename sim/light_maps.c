@@ -42,10 +42,8 @@ bool light_maps_indirect(arena *a, const scene *s, const run_options *o, double 
         *out            = illumination_map_read(a, o->maps, s, &of, &why, &wrong);
         if (*out)
             return true;
-        if (wrong.text[0]) {
-            *err = wrong;
-            return false;
-        }
+        if (wrong.text[0]) /* wrong input, where one that cannot be written is a failure */
+            return failed(err, wrong.code == ERR_IO ? ERR_ARGUMENT : wrong.code, "%s", wrong.text);
     }
     *out = illumination_map_new(a, s, &of, err);
     return *out && (!o->maps || illumination_map_write(o->maps, *out, err));

@@ -1,9 +1,11 @@
 /* tests/lab.c -- see lab.h. */
 #include "tests/lab.h"
 
+#include "sim/light_maps.h"
 #include "tests/folder.h"
 #include "tests/gltf_text.h"
 #include "tests/test.h"
+#include "tests/transports.h"
 
 #include <stdio.h>
 
@@ -131,17 +133,24 @@ const scene *lab_scene(lab *l, const char *yaml)
     return made;
 }
 
-void lab_measure(lab *l, const char *yaml, const char *grid, const lab_probe *p, int count,
-                 const run_options *o, grid_result *out)
+/* The study with a grid of these sensors. */
+static const scene *scene_of_probes(lab *l, const char *yaml, const char *grid, const lab_probe *p,
+                                    int count)
 {
     char *text = text_of(&l->a, "x,y,z,nx,ny,nz\n");
     for (int i = 0; i < count; i++)
         text = text_of(&l->a, "%s%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", text, p[i].at.x, p[i].at.y,
                        p[i].at.z, p[i].normal.x, p[i].normal.y, p[i].normal.z);
     folder_write(l->folder, "probes.csv", text);
-    const scene *s =
-        lab_scene(l, text_of(&l->a, "lux4: 1\n%s\ngrids: [{name: probes, points: probes.csv%s}]\n",
+    return lab_scene(l,
+                     text_of(&l->a, "lux4: 1\n%s\ngrids: [{name: probes, points: probes.csv%s}]\n",
                              yaml, grid ? grid : ""));
+}
+
+void lab_measure(lab *l, const char *yaml, const char *grid, const lab_probe *p, int count,
+                 const run_options *o, grid_result *out)
+{
+    const scene *s      = scene_of_probes(l, yaml, grid, p, count);
     run_options options = *o;
     options.seed        = options.seed ? options.seed : 1;
     grid_of_scene(&l->a, s, 0, &options, out);
@@ -164,6 +173,31 @@ void lab_check(const char *what, const grid_result *r, const double *want, doubl
         if (!(r->half_width[k] <= 1.05 * accuracy * fmax(want[k], 0.1 * mean)))
             fail_msg("%s, sensor %d: %.9g lx +- %.3g is not as sure as asked for", what, k,
                      r->illuminance[k], r->half_width[k]);
+    }
+}
+
+void lab_check_all_ways(const char *what, const char *yaml, lab *l, const lab_probe *p, int count,
+                        const double *want, double exact, double accuracy)
+{
+    const scene *s = scene_of_probes(l, yaml, NULL, p, count);
+    for (int t = 0; t < TRANSPORTS; t++) {
+        const illumination_map *map = NULL; /* which roulette of paths does not touch */
+        for (int d = 0; d < ROULETTE_DEPTHS; d++) {
+            grid_result r;
+            run_options o = { .accuracy      = accuracy,
+                              .deadline      = HUGE_VAL,
+                              .threads       = 1,
+                              .seed          = (uint32_t)(11 + 7 * d),
+                              .transport     = transports[t],
+                              .roulette_from = roulette_depths[d] };
+            if (o.transport == TRANSPORT_MAPS && !map)
+                assert_true(light_maps_indirect(&l->a, s, &o, accuracy, &map, NULL));
+            o.indirect = map;
+            grid_of_scene(&l->a, s, 0, &o, &r);
+            /* Maps do not grow finer for one sensor's sake, and what they smooth is told */
+            double told = o.transport == TRANSPORT_MAPS ? 2.0 : 1.0;
+            lab_check(what, &r, want, exact, told * accuracy);
+        }
     }
 }
 

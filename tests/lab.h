@@ -57,6 +57,11 @@ void lab_measure(lab *l, const char *yaml, const char *grid, const lab_probe *p,
 void lab_check(const char *what, const grid_result *r, const double *want, double exact,
                double accuracy);
 
+/* The same by every transport with every depth of roulette (transports.h), each of another seed,
+ * but for the one map. */
+void lab_check_all_ways(const char *what, const char *yaml, lab *l, const lab_probe *p, int count,
+                        const double *want, double exact, double accuracy);
+
 /* Lux of a polygon of 1 cd/m^2, both sides of it shining, at p on a surface with that normal
  * (Lambert's formula), what is below the surface's horizon cut off. At most 8 corners. */
 double polygon_lux(const dvec3 *corner, int count, dvec3 p, dvec3 normal);

@@ -51,7 +51,7 @@ TEST(json_has_rows_and_advice)
 {
     char *folder     = folder_of_study(room);
     program_result r = { 0 };
-    LUX4_COST(folder, &r, "study.yaml", "--time", "10", "--json");
+    LUX4_COST(folder, &r, "study.yaml", "--time", "2", "--json");
     assert_true(json_is_valid(r.out));
     assert_non_null(json_at(r.out, "rows.0.setting"));
     assert_true(json_number_at(r.out, "rows.0.rays") > 0.0);
@@ -66,10 +66,10 @@ TEST(the_same_study_replaces_its_own_results_and_no_others)
 {
     char *folder     = folder_of_study(room);
     program_result r = { 0 };
-    LUX4_COST(folder, &r, "study.yaml", "--time", "3");
-    LUX4_COST(folder, &r, "study.yaml", "--time", "3");
+    LUX4_COST(folder, &r, "study.yaml", "--time", "1");
+    LUX4_COST(folder, &r, "study.yaml", "--time", "1");
     folder_write(folder, "other.yaml", room);
-    LUX4_FAILS(folder, 2, "is there already", "cost", "other.yaml", "--time", "3");
+    LUX4_FAILS(folder, 2, "is there already", "cost", "other.yaml", "--time", "1");
     program_free(&r);
     folder_free(folder);
 }
@@ -78,10 +78,52 @@ TEST(a_study_of_views_is_run_by_rays_a_pixel_too)
 {
     char *folder     = folder_of_study(view);
     program_result r = { 0 };
-    LUX4_COST(folder, &r, "study.yaml", "--time", "15", "--accuracy", "50%");
+    LUX4_COST(folder, &r, "study.yaml", "--time", "5", "--accuracy", "50%");
     assert_non_null(strstr(r.out, "view hall"));
     assert_non_null(strstr(r.out, "1 ray a pixel"));
     assert_non_null(strstr(r.out, "25 rays a pixel"));
+    program_free(&r);
+    folder_free(folder);
+}
+
+/* Where it is when it is interrupted hangs on the machine: before the reference there is nothing to
+ * write, then there is what has been run. */
+TEST(an_interrupted_run_writes_all_or_nothing)
+{
+    char *folder     = folder_of_study(room);
+    program_result r = { 0 };
+    program_expect(130,
+                   &(program_desc){ .folder = folder,
+                                    .until  = path_in(folder, "out"),
+                                    .then_s = 0.7,
+                                    .words  = { "cost", "study.yaml", "--accuracy", "1%" } },
+                   &r);
+    assert_one_line(&r, "interrupted");
+    int written = count_names(path_in(folder, "out"));
+    assert_true(written == 0 || written == 2);
+    if (written) {
+        size_t size;
+        char *text = bytes_of(path_in(folder, "out/cost.csv"), &size);
+        assert_non_null(strstr(text, "\n# partial: "));
+        assert_true(there_is(folder, "out/cost.svg"));
+        free(text);
+    }
+    program_free(&r);
+    folder_free(folder);
+}
+
+TEST(files_that_grow_too_large_are_not_left_in_part)
+{
+    char *folder     = folder_of_study(room);
+    program_result r = { 0 };
+    program_expect(1,
+                   &(program_desc){ .folder          = folder,
+                                    .out             = "/dev/null", /* or it is too large itself */
+                                    .most_file_bytes = 512,
+                                    .words = { "cost", "study.yaml", "--time=1", "--quiet" } },
+                   &r);
+    assert_one_line(&r, "out/cost.csv: cannot write");
+    assert_int_equal(count_names(path_in(folder, "out")), 0);
     program_free(&r);
     folder_free(folder);
 }
@@ -100,6 +142,8 @@ int main(void)
         cmocka_unit_test(json_has_rows_and_advice),
         cmocka_unit_test(the_same_study_replaces_its_own_results_and_no_others),
         cmocka_unit_test(a_study_of_views_is_run_by_rays_a_pixel_too),
+        cmocka_unit_test(an_interrupted_run_writes_all_or_nothing),
+        cmocka_unit_test(files_that_grow_too_large_are_not_left_in_part),
         cmocka_unit_test(a_study_with_nothing_to_run_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -69,7 +69,7 @@ TEST(views_that_are_done_are_written_and_the_current_one_is_marked)
         130,
         &(program_desc){ .folder = folder,
                          .until  = path_in(folder, "out/dim.png"),
-                         .then_s = 0.5,
+                         .then_s = 1.5,
                          .words  = { "render", "study.yaml", "--accuracy=0.01%", "--json" } },
         &r);
     assert_one_line(&r, "interrupted");

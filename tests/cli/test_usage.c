@@ -191,6 +191,11 @@ TEST(what_cannot_be_printed_is_an_error)
                        &r);
         assert_one_line(&r, "cannot write the results");
         program_expect(1,
+                       &(program_desc){
+                           .out = places[i], .folder = folder, .words = { "plan", "study.yaml" } },
+                       &r);
+        assert_one_line(&r, "cannot write the results");
+        program_expect(1,
                        &(program_desc){ .out    = places[i],
                                         .folder = folder,
                                         .words  = { "grid", "study.yaml", "--accuracy=50%" } },

@@ -11,28 +11,8 @@
 #include "tests/lab_sphere.h"
 #include "tests/slab.h"
 #include "tests/test.h"
-#include "tests/transports.h"
 
 static const double glow = 100.0; /* cd/m^2 */
-
-/* Every transport with every depth of roulette, each of another seed: within what is asked for
- * and the interval, both as lab_check has it. */
-static void all_ways(const char *what, const char *yaml, lab *l, const lab_probe *p, int count,
-                     const double *want, double exact, double accuracy)
-{
-    for (int t = 0; t < TRANSPORTS; t++)
-        for (int d = 0; d < ROULETTE_DEPTHS; d++) {
-            grid_result r;
-            run_options o = { .accuracy      = accuracy,
-                              .seed          = (uint32_t)(11 + 7 * d),
-                              .transport     = transports[t],
-                              .roulette_from = roulette_depths[d] };
-            lab_measure(l, yaml, NULL, p, count, &o, &r);
-            /* Maps do not grow finer for one sensor's sake, which is told */
-            double sure = transports[t] == TRANSPORT_MAPS ? 2.0 * accuracy : accuracy;
-            lab_check(what, &r, want, exact, sure);
-        }
-}
 
 static const lab_probe inside[2] = { { { 0.6, 0.9, 1.1 }, { 0, 0, 1 } },
                                      { { -1, 1, 1.5 }, { 0.6, 0, -0.8 } } };
@@ -46,9 +26,10 @@ static void glowing_enclosure(const char *made_of, double rho, double accuracy)
     quads_of_box((dvec3){ -2, -2, -2 }, (dvec3){ 2, 2, 2 }, side);
     lab_quads(&l, "glow.gltf", side, 6, lab_glow(&l, glow));
     double lux = M_PI * glow / (1.0 - (double)(float)rho);
-    all_ways(made_of,
-             text_of(&l.a, "scene: glow.gltf\nmaterials: [{match: Glow, %s: %g}]\n", made_of, rho),
-             &l, inside, 2, (double[]){ lux, lux }, 1e-4, accuracy);
+    lab_check_all_ways(
+        made_of,
+        text_of(&l.a, "scene: glow.gltf\nmaterials: [{match: Glow, %s: %g}]\n", made_of, rho), &l,
+        inside, 2, (double[]){ lux, lux }, 1e-4, accuracy);
     lab_close(&l);
 }
 
@@ -85,12 +66,12 @@ static void around_a_body(double rho, const char *looks, const char *made_of, bo
     lab_quads(&l, "glow.gltf", side, 6, lab_glow(&l, glow));
     lab_quads(&l, "body.gltf", body, solid ? 6 : 1, looks);
     double lux = M_PI * glow / (1.0 - (double)(float)rho);
-    all_ways(looks,
-             text_of(&l.a,
-                     "scene: [glow.gltf, body.gltf]\nmaterials:\n"
-                     "  - {match: Glow, reflectance: %g}\n%s",
-                     rho, made_of),
-             &l, inside, 2, (double[]){ lux, lux }, exact, 0.02);
+    lab_check_all_ways(looks,
+                       text_of(&l.a,
+                               "scene: [glow.gltf, body.gltf]\nmaterials:\n"
+                               "  - {match: Glow, reflectance: %g}\n%s",
+                               rho, made_of),
+                       &l, inside, 2, (double[]){ lux, lux }, exact, 0.02);
     lab_close(&l);
 }
 
@@ -138,12 +119,12 @@ static void integrating_sphere(double rho, double accuracy)
                             { { 0, -0.3, 0.6 }, { 0.6, 0, 0.8 } },
                             { { 0, 0, 0.5 }, { 0, 0, -1 } } };
     const double want[] = { even, even, even + 1000.0 / (4.0 * M_PI * 0.25) };
-    all_ways("sphere",
-             text_of(&l.a,
-                     "scene: sphere.gltf\nmaterials: [{match: Matt, reflectance: %g}]\n"
-                     "lights: [{type: point, at: [0, 0, 0], lumens: 1000}]",
-                     rho),
-             &l, p, 3, want, 1e-3, accuracy);
+    lab_check_all_ways("sphere",
+                       text_of(&l.a,
+                               "scene: sphere.gltf\nmaterials: [{match: Matt, reflectance: %g}]\n"
+                               "lights: [{type: point, at: [0, 0, 0], lumens: 1000}]",
+                               rho),
+                       &l, p, 3, want, 1e-3, accuracy);
     lab_close(&l);
 }
 

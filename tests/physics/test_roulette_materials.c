@@ -5,26 +5,6 @@
 #include "tests/lab.h"
 #include "tests/program.h"
 #include "tests/test.h"
-#include "tests/transports.h"
-
-/* Every transport with every depth of roulette, each of another seed: within what is asked for
- * and the interval, both as lab_check has it. */
-static void all_ways(const char *what, const char *yaml, lab *l, const lab_probe *p, int count,
-                     const double *want, double exact, double accuracy)
-{
-    for (int t = 0; t < TRANSPORTS; t++)
-        for (int d = 0; d < ROULETTE_DEPTHS; d++) {
-            grid_result r;
-            run_options o = { .accuracy      = accuracy,
-                              .seed          = (uint32_t)(11 + 7 * d),
-                              .transport     = transports[t],
-                              .roulette_from = roulette_depths[d] };
-            lab_measure(l, yaml, NULL, p, count, &o, &r);
-            /* What maps smooth is added to what was asked for, and told */
-            double told = o.transport == TRANSPORT_MAPS ? 2.0 : 1.0;
-            lab_check(what, &r, want, exact, told * accuracy);
-        }
-}
 
 /* A lamp in a grey room with a body of it on the floor: other depths, the same light. */
 static void depths_agree(const char *looks, const char *made_of)
@@ -44,7 +24,7 @@ static void depths_agree(const char *looks, const char *made_of)
                 made_of);
     grid_result first;
     lab_measure(&l, yaml, NULL, p, 2, &(run_options){ .accuracy = 0.01, .seed = 3 }, &first);
-    all_ways(looks, yaml, &l, p, 2, first.illuminance, 0.015, 0.03);
+    lab_check_all_ways(looks, yaml, &l, p, 2, first.illuminance, 0.015, 0.03);
     lab_close(&l);
 }
 

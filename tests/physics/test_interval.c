@@ -167,9 +167,9 @@ static void box_ies_holds(double accuracy, uint32_t seeds)
     arena_clear(&a);
 }
 
-TEST(intervals_of_10_percent_hold_an_independent_truth) { box_ies_holds(0.10, 8); }
-TEST(intervals_of_5_percent_hold_an_independent_truth) { box_ies_holds(0.05, 6); }
-TEST(intervals_of_2_percent_hold_an_independent_truth) { box_ies_holds(0.02, 6); }
+TEST(intervals_of_10_percent_hold_an_independent_truth) { box_ies_holds(0.10, 20); }
+TEST(intervals_of_5_percent_hold_an_independent_truth) { box_ies_holds(0.05, 10); }
+TEST(intervals_of_2_percent_hold_an_independent_truth) { box_ies_holds(0.02, 10); }
 
 int main(void)
 {

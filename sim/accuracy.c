@@ -28,6 +28,7 @@ const char *run_end_text(run_end end)
         [RUN_INTERRUPTED] = "interrupted before the accuracy asked for was reached",
         [RUN_LATE]        = "the time was out before the accuracy asked for was reached",
         [RUN_EXHAUSTED]   = "the accuracy asked for takes more samples than lux4 draws",
+        [RUN_HELD_UP]     = "maps or bounds are not fine enough for the accuracy asked for",
     };
     return end == RUN_DONE ? NULL : texts[end];
 }
@@ -101,6 +102,21 @@ static void do_work(void *context, int item, int thread)
         __atomic_store_n(&s->halt, true, __ATOMIC_RELAXED);
 }
 
+/* Of pairs of sums. */
+static float correlation(const by_scramble *a, const by_scramble *b)
+{
+    double mean_a = 0.0, mean_b = 0.0, aa = 0.0, bb = 0.0, ab = 0.0;
+    for (int r = 0; r < SCRAMBLES; r++) {
+        mean_a += (double)a->sum[r] / SCRAMBLES;
+        mean_b += (double)b->sum[r] / SCRAMBLES;
+    }
+    for (int r = 0; r < SCRAMBLES; r++) {
+        double x = (double)a->sum[r] - mean_a, y = (double)b->sum[r] - mean_b;
+        aa += x * x, bb += y * y, ab += x * y;
+    }
+    return aa > 0.0 && bb > 0.0 ? (float)(ab / sqrt(aa * bb)) : 0.0f;
+}
+
 /* Takes over what this round found of the items that it finished. */
 static void take_over(accuracy_state *s)
 {
@@ -114,9 +130,13 @@ static void take_over(accuracy_state *s)
             for (size_t piece = 0; piece < (size_t)s->pieces; piece++)
                 s->total[c * (size_t)s->d->items + item] +=
                     s->new_total[(piece * active + j) * channels + c];
-        for (size_t q = 0; q < spread; q++)
+        for (size_t q = 0; q < spread; q++) {
+            by_scramble *to = &s->parts[item * spread + q], *more = &s->new_parts[j * spread + q];
+            if (s->d->common && s->rounds > 0)
+                s->looks[item * spread + q].common = correlation(to, more);
             for (int r = 0; r < SCRAMBLES; r++)
-                s->parts[item * spread + q].sum[r] += s->new_parts[j * spread + q].sum[r];
+                to->sum[r] += more->sum[r];
+        }
         s->r->samples[item] += (uint32_t)(s->to - s->from) * s->n;
     }
 }

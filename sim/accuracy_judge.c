@@ -9,6 +9,9 @@ static const double student_t[SCRAMBLES] = { HUGE_VAL, 12.7062, 4.3027, 3.1824, 
                                              2.4469,   2.3646,  2.3060, 2.2622, 2.2281, 2.2010,
                                              2.1788,   2.1604,  2.1448, 2.1314 };
 
+/* Correlation of 16 pairs that is no chance. */
+static const double believed = 0.9;
+
 static size_t at(const accuracy_state *s, int channel, int item)
 {
     return (size_t)channel * (size_t)s->d->items + (size_t)item;
@@ -76,7 +79,7 @@ static void look_at(const accuracy_state *s, int channel, int item)
     double n = s->r->samples[item], half = s->r->half_width[at(s, channel, item)];
     look *l = &s->looks[(size_t)item * (size_t)s->spread + (size_t)channel];
     if (s->rounds > 0 && l->samples != s->r->samples[item])
-        *l = (look){ l->now, (float)(n * half * half), s->r->samples[item] };
+        *l = (look){ l->now, (float)(n * half * half), l->common, s->r->samples[item] };
 }
 
 /* The square of the half width that an item would have if its samples were as alike as those of the
@@ -146,6 +149,13 @@ static double worst_ratio(const accuracy_state *s, int item)
     return isnan(worst) ? HUGE_VAL : worst;
 }
 
+/* What of its half width stays however many samples follow (accuracy.h). */
+static double common_half_width(const accuracy_state *s, int channel, int item, double half)
+{
+    double r = (double)s->looks[(size_t)item * (size_t)s->spread + (size_t)channel].common;
+    return r > believed ? half * sqrt(2.0 * r / (1.0 + r)) : 0.0;
+}
+
 /* Whether more samples may make the item good: what is left out of them alone does not spoil it,
  * nor what stays as it is, which they come close to slowly. */
 static bool can_be_good(const accuracy_state *s, int item)
@@ -157,7 +167,9 @@ static bool can_be_good(const accuracy_state *s, int item)
         double asked = share_of(s, q) * d->accuracy * against_of(s, q, item);
         double bound = d->bound ? d->bound[at(s, q, item)] : 0.0;
         double fixed = d->fixed ? d->fixed[at(s, q, item)] : 0.0;
-        can          = can && bound <= asked && fixed <= most_fixed * (asked - bound);
+        double half  = s->r->half_width[at(s, q, item)] - bound;
+        can          = can && bound <= asked && fixed <= most_fixed * (asked - bound) &&
+              common_half_width(s, q, item, half) <= asked - bound;
     }
     return can;
 }
@@ -176,6 +188,7 @@ bool accuracy_judge(accuracy_state *s, lux_error *err)
     }
     s->r->floor       = s->floors[0];
     s->r->missed      = 0;
+    s->r->held_up     = 0;
     s->r->complete    = true;
     s->active_count   = 0;
     s->samples_before = s->samples_predicted = 0.0;
@@ -188,7 +201,9 @@ bool accuracy_judge(accuracy_state *s, lux_error *err)
             s->r->complete = false;
         bool missed = n == 0.0 || !(ratios[i] <= s->d->accuracy);
         s->r->missed += missed;
-        if ((missed && can_be_good(s, i)) || s->rounds < LEAST_ROUNDS) {
+        bool can = !missed || can_be_good(s, i);
+        s->r->held_up += !can;
+        if ((missed && can) || s->rounds < LEAST_ROUNDS) {
             double more = fmin(ratios[i] / s->d->accuracy, 1e3);
             s->samples_predicted += fmax(n, n * (more * more - 1.0));
             s->active[s->active_count++] = i;
@@ -199,7 +214,8 @@ bool accuracy_judge(accuracy_state *s, lux_error *err)
     qsort(ratios, (size_t)items, sizeof *ratios, compare);
     s->reached = s->r->reached = ratios[items - 1 - may_miss];
     bool enough = s->rounds >= LEAST_ROUNDS && s->r->complete && s->r->missed <= may_miss;
-    s->r->end   = enough ? RUN_DONE : RUN_EXHAUSTED; /* unless something else ends it before */
+    bool over   = s->rounds >= LEAST_ROUNDS && s->active_count == 0; /* those left are held up */
+    s->r->end   = enough ? RUN_DONE : over ? RUN_HELD_UP : RUN_EXHAUSTED; /* if nothing else does */
     arena_clear(&scratch);
     return true;
 }

@@ -15,6 +15,7 @@ typedef struct by_scramble {
 /* n h^2, of n samples and half width h, at the last two looks at an item: after so many samples */
 typedef struct look {
     float before, now;
+    float common; /* correlation of the last round with all before it, where that is asked for */
     uint32_t samples;
 } look;
 

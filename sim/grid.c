@@ -140,7 +140,7 @@ static void summarise(grid_result *r)
     r->missed  = over; /* as the bounds say; or of layers, which alone were held to the accuracy */
     r->reached = fmax(r->reached, r->worst_half_width);
     if (!sampled && over)
-        r->end = RUN_EXHAUSTED;
+        r->end = RUN_HELD_UP;
 }
 
 grid_summary grid_initial(const grid_result *r, double maintenance)

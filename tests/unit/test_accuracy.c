@@ -162,8 +162,35 @@ TEST(what_bounds_alone_spoil_is_not_sampled_for_ever)
     d.accuracy         = 0.2;
     d.first_samples    = 8;
     accuracy_result r  = run(&a, &d);
-    assert_true(r.end == RUN_EXHAUSTED && r.missed == 1);
+    assert_true(r.end == RUN_HELD_UP && r.missed == 1 && r.held_up == 1);
     assert_int_equal(r.samples[0], 16 * 16);
+    arena_clear(&a);
+}
+
+/* What scrambles are off by is 0.9 of by_scramble's, whatever their samples; the rest is of each
+ * round alone: one order of the scrambles for odd numbers of rounds, another one for even ones. */
+static float mostly_common(sample_id id)
+{
+    int round       = 31 - __builtin_clz(id.index / 8 + 1);
+    unsigned turned = id.scramble * (round % 2 ? 3 : 5) % 16;
+    return (float)(17.5 + 0.9 * off(id) + 0.1 * ((double)turned - 7.5));
+}
+
+TEST(what_all_samples_of_a_scramble_share_is_not_sampled_for_ever)
+{
+    arena a           = { 0 };
+    fake f            = { .value = mostly_common };
+    accuracy_desc d   = desc_of(&f, 1);
+    d.first_samples   = 8;
+    d.common          = true;
+    d.accuracy        = 0.5 * unit_half / 17.5;
+    accuracy_result r = run(&a, &d);
+    assert_true(r.end == RUN_HELD_UP && r.missed == 1 && r.held_up == 1);
+    assert_int_equal(r.samples[0], 16 * 16);
+    assert_true(r.half_width[0] >= 0.9 * unit_half && r.half_width[0] <= unit_half);
+    d.accuracy = 1.01 * unit_half / 17.5; /* then it is not in the way */
+    r          = run(&a, &d);
+    assert_true(r.end == RUN_DONE && r.missed == 0 && r.held_up == 0);
     arena_clear(&a);
 }
 
@@ -487,7 +514,7 @@ TEST(values_that_never_settle_exhaust_the_samples)
 TEST(every_end_but_success_has_a_text)
 {
     assert_null(run_end_text(RUN_DONE));
-    for (run_end end = RUN_INTERRUPTED; end <= RUN_EXHAUSTED; end++)
+    for (run_end end = RUN_INTERRUPTED; end <= RUN_HELD_UP; end++)
         assert_non_null(run_end_text(end));
 }
 
@@ -518,6 +545,7 @@ int main(void)
         cmocka_unit_test(several_channels_are_judged_each_by_itself),
         cmocka_unit_test(a_small_part_is_judged_by_what_it_is_part_of),
         cmocka_unit_test(what_bounds_alone_spoil_is_not_sampled_for_ever),
+        cmocka_unit_test(what_all_samples_of_a_scramble_share_is_not_sampled_for_ever),
         cmocka_unit_test(a_channel_that_is_only_told_has_a_half_width_and_no_say),
         cmocka_unit_test(every_channel_has_its_means),
         cmocka_unit_test(looking_after_each_round_leaves_the_intervals_valid),

@@ -1,6 +1,6 @@
 /* sim/map_parts.h -- what the files of illumination_map.h share: map_mesh.c puts the triangles of
  * meshes in order, map_cells.c grows trees of cells over them, map_walls.c sees what stands on
- * cells, map_trace.c follows particles, map_sensors.c watches them pass, map_file.c keeps maps.
+ * cells, map_trace.c follows particles, map_aim.c sends them toward portals, map_sensors.c watches them pass, map_file.c keeps maps.
  *
  * A smooth piece of a mesh is a range of its triangles in an order along a space-filling curve. A
  * side of it in one instance is a sheet; each sheet to which particles came has a tree of cells:
@@ -148,6 +148,12 @@ map_tracer *map_tracer_new(arena *a, lux_error *err);
  * pilots, else map_deposits, in an order that depends on nothing else. */
 void map_trace(map_tracer *t, const map_job *job, uint32_t first, int count, uint32_t seed,
                map_list *out, map_balance *balance);
+
+/* Draws anew where the lanes of `active` go on from before a portal, in some cases toward it; the
+ * lanes that go on. *rarer, (0, 1]: by how much less than others a particle carries by that alone.
+ */
+vmask map_aim(const scene *s, const vsurface *at, const vshading *h, const vsample4 *u,
+              vmask active, vmask goes, vscatter *next, vfloat *rarer);
 
 /* ---- sensors --------------------------------------------------------------------------------- */
 

@@ -390,6 +390,20 @@ static void note_scattered(map_tracer *t, int k, vmask active, const vscatter *n
     vstore_int(t->state + k * LANES, vselect_int(on, before, after));
 }
 
+/* From matt surfaces before portals. What carries less as it was aimed does not end by that. */
+static vmask aim(map_tracer *t, int k, vmask active, vmask goes, vscatter *next)
+{
+    const scene *s = t->job->s;
+    vint does      = vgather_int(s->material_does, vkeep_int(active, t->at[k].material));
+    vmask matt = (does & (DOES_ASK | DOES_NARROW | DOES_AROUND | DOES_HOLLOW)) == DOES_ASK;
+    uint32_t seed = hash_combine_u32(hash_combine_u32(t->seed, 0xa13d), t->depth);
+    vsample4 u    = vsobol4(vunsigned(vload_int(t->index + k * LANES)), vsplat_uint(seed));
+    vfloat rarer;
+    goes = map_aim(s, &t->at[k], &t->shading[k], &u, active & matt, goes, next, &rarer);
+    vstore(t->carried[FULL] + k * LANES, load(t, FULL, k) * rarer);
+    return goes;
+}
+
 /* Draws where particles go on, or that they end. */
 static vmask next_direction(map_tracer *t, int k, vmask active, vscatter *next)
 {
@@ -399,6 +413,8 @@ static vmask next_direction(map_tracer *t, int k, vmask active, vscatter *next)
     vsample4 u        = vsobol4(index, vsplat_uint(seed));
     const vshading *h = &t->shading[k];
     vmask goes = materials_scatter(s->materials, t->at[k].material, h, u.x, u.y, u.z, active, next);
+    if (s->portal_count > 0 && t->job->kind == MAP_INDIRECT)
+        goes = aim(t, k, active, goes, next);
     if (s->smooth || s->textured) {
         vmask turned = goes & ~next->straight;
         goes         = goes & (next->straight | on_one_side(h, &next->wi));

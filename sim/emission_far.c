@@ -62,6 +62,7 @@ static vfloat portals_on_line(const emission *e, const vvec3 *p, const vvec3 *wi
 typedef struct vline {
     vvec3 origin; /* m, before the sphere */
     vfloat open, through;
+    vfloat once; /* the latter of one that goes in by one portal */
 } vline;
 
 static vline draw_line(const emission *e, const vvec3 *wi, const vfloat st[2], vfloat pick,
@@ -80,6 +81,7 @@ static vline draw_line(const emission *e, const vvec3 *wi, const vfloat st[2], v
         vfloat n   = portals_on_line(e, &place, wi);
         n          = vselect(through, vmax(n, vsplat(1.0f)), n); /* rounded past its edge */
         l.through  = vkeep(sum > 0.0f, n / sum);
+        l.once     = vkeep(sum > 0.0f, 1.0f / sum);
     }
     vfloat ahead = vdot(vsub(place, centre), *wi);
     l.origin     = valong(place, *wi, e->around.radius - ahead);
@@ -94,6 +96,12 @@ static vmask choose_way(float through, vfloat *pick)
     vfloat open     = (*pick - through) / (1.0f - through);
     *pick           = vmin(vselect(by_portal, inside, open), vsplat(0x1.fffffep-1f));
     return by_portal;
+}
+
+/* Of a line by its density and what that would be if it went in by one portal. */
+static vfloat evenness(vfloat density, vfloat by_one)
+{
+    return vmin(density / by_one, vsplat(1.0f));
 }
 
 static void set_ray(vparticle *out, const vvec3 *origin, const vvec3 *wi, vmask lit)
@@ -132,6 +140,7 @@ vmask emission_draw_light(const emission *e, int which, const emission_numbers *
 
     set_ray(out, &line.origin, &of.wi, lit);
     out->flux = vkeep3(lit, vscale(of.e, 1.0f / density));
+    out->even = vkeep(lit, evenness(density, (1.0f - through) * line.open + through * line.once));
     return lit;
 }
 
@@ -190,11 +199,13 @@ vmask emission_draw_sky(const emission *e, int which, const emission_numbers *n,
     const vfloat st[2] = { n->u.x, n->u.y };
     vline line         = draw_line(e, &wi, st, n->portal, way);
     vfloat density = (1.0f - through) * by_open * line.open + through * by_portals * line.through;
+    vfloat by_one  = (1.0f - through) * by_open * line.open + through * by_portals * line.once;
     vmask lit      = active & (density > 0.0f) & (~way | (line.through > 0.0f));
     vrgb radiance  = draw_radiance(e, from, &wi, pick, lit, out);
     lit &= vrgb_luminance(radiance) > 0.0f;
 
     set_ray(out, &line.origin, &wi, lit);
     out->flux = vkeep3(lit, vscale(radiance, 1.0f / density));
+    out->even = vkeep(lit, evenness(density, by_one));
     return lit;
 }

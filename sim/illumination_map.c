@@ -363,6 +363,8 @@ const illumination_map *illumination_map_new(arena *a, const scene *s, const map
     for (int i = 0; i < WAVE_CHUNKS; i++)
         map_list_free(&r->lists[i]);
     map_list_free(&marks);
+    for (int i = 0; r->tracers && i < o->threads; i++)
+        map_tracer_free(r->tracers[i]);
     arena_clear(&scratch);
     return done ? m : NULL;
 }

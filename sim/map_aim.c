@@ -106,3 +106,11 @@ vmask map_aim(const scene *s, const vsurface *at, const vshading *h, const vsamp
     *rarer       = vselect(drawn, vmin(p_f / both, *rarer), *rarer);
     return goes & ~(drawn & ~(p_f > 0.0f));
 }
+
+vfloat map_aim_share(const scene *s, const vsurface *at, const vshading *h, vmask active)
+{
+    vfloat sum   = sum_of_chances(s, &at->position, &h->n);
+    vrgb albedo  = materials_albedo(s->materials, at->material, h, active & (sum > 0.0f));
+    vfloat most  = vmax(albedo.x, vmax(albedo.y, albedo.z));
+    return most * sum * (0.318309886f / aimed_share);
+}

@@ -143,6 +143,7 @@ typedef struct map_job {
 
 /* Scratch of a thread. */
 map_tracer *map_tracer_new(arena *a, lux_error *err);
+void map_tracer_free(map_tracer *t); /* NULL: nothing */
 
 /* Follows `count` particles from number `first` on of the set that `seed` names; adds map_marks of
  * pilots, else map_deposits, in an order that depends on nothing else. */
@@ -154,6 +155,9 @@ void map_trace(map_tracer *t, const map_job *job, uint32_t first, int count, uin
  */
 vmask map_aim(const scene *s, const vsurface *at, const vshading *h, const vsample4 *u,
               vmask active, vmask goes, vscatter *next, vfloat *rarer);
+
+/* What of a particle's flux is in one that is aimed at a portal from there, at most, about. */
+vfloat map_aim_share(const scene *s, const vsurface *at, const vshading *h, vmask active);
 
 /* ---- sensors --------------------------------------------------------------------------------- */
 

@@ -22,6 +22,10 @@
 static const float surest_survival = 0.995f;
 static const float wide_spread     = 0.03f; /* rad */
 
+/* Times what portals let in at once: what may come in by one after a reflection. */
+static const float too_heavy = 2.0f;
+enum { MOST_PARTS = 256 };
+
 enum { MAP_PACKETS = MAP_BATCH / LANES };
 
 /* What a living particle carries; vectors are three fields. */
@@ -30,7 +34,8 @@ enum {
     WAY     = PLACE + 3, /* unit: the ray's direction */
     FLUX    = WAY + 3,   /* W */
     FULL    = FLUX + 3,  /* W: the largest channel of what it set out with */
-    DIMMING = FULL + 1,  /* of its source */
+    EVEN    = FULL + 1,  /* W: the same of those that portals let in */
+    DIMMING = EVEN + 1,  /* of its source */
     FIELDS
 };
 
@@ -41,7 +46,14 @@ enum {
     NO_IMAGE  = 4,  /* once other than a mirror image that paths ask for; */
     FROM_MATT = 8,  /* the last was such a one */
     LOST      = 16, /* within a plate of glass it was reflected: paths leave that out, too */
+    COPY      = 32, /* where it stands, another has left the light */
 };
+
+/* One that stands where light comes to, and goes on apart from the one that it was copied from. */
+typedef struct map_copy {
+    int32_t image, index, group, spare, state, instance, triangle;
+    float distance, u, v, carried[FIELDS];
+} map_copy;
 
 struct map_tracer {
     const map_job *job;
@@ -49,6 +61,7 @@ struct map_tracer {
     int alive;
     map_list *out;
     map_balance *balance;
+    map_list copies; /* that wait */
 
     int32_t image[MAP_BATCH]; /* mirrors since it set out (mirrors.h); -1: it is no image */
     int32_t index[MAP_BATCH], group[MAP_BATCH], spare[MAP_BATCH], state[MAP_BATCH];
@@ -66,7 +79,20 @@ struct map_tracer {
     vshading shading[MAP_PACKETS];
 };
 
-map_tracer *map_tracer_new(arena *a, lux_error *err) { return arena_new(a, map_tracer, err); }
+map_tracer *map_tracer_new(arena *a, lux_error *err)
+{
+    map_tracer *t = arena_new(a, map_tracer, err);
+    if (t)
+        t->copies.size = sizeof(map_copy);
+    return t;
+}
+
+void map_tracer_free(map_tracer *t)
+{
+    if (t)
+        map_list_free(&t->copies);
+}
+
 
 void *map_list_add(map_list *l)
 {
@@ -161,7 +187,9 @@ static void set_out(map_tracer *t, int k, const vparticle *p)
     store3(t, PLACE, k, p->ray.origin);
     store3(t, WAY, k, p->ray.direction);
     store3(t, FLUX, k, p->flux);
-    vstore(t->carried[FULL] + i, vmax(p->flux.x, vmax(p->flux.y, p->flux.z)));
+    vfloat full = vmax(p->flux.x, vmax(p->flux.y, p->flux.z));
+    vstore(t->carried[FULL] + i, full);
+    vstore(t->carried[EVEN] + i, full * p->even);
     vstore_int(t->group + i, p->group);
     vstore_int(t->spare + i, p->spare);
     vstore_int(t->image + i, vselect_int(p->source < 0, vsplat_int(-1), vsplat_int(0)));
@@ -333,7 +361,8 @@ static vmask arrive(map_tracer *t, int k)
     vfloat turned =
         s->smooth || s->textured ? tilt(&t->shading[k], &t->shading[k].wo) : vsplat(1.0f);
     vrgb flux = vscale(load3(t, FLUX, k), turned);
-    for (int bits = vbits(active & counts(t, k)); bits; bits &= bits - 1) {
+    vmask copies = (vload_int(t->state + k * LANES) & COPY) != 0;
+    for (int bits = vbits(active & counts(t, k) & ~copies); bits; bits &= bits - 1) {
         int j = __builtin_ctz((unsigned)bits), i = k * LANES + j;
         if (is_matt(lane(does, j)))
             lay_down(t, i, vbits(t->shading[k].front) >> j & 1,
@@ -374,7 +403,7 @@ static vfloat adjoint(const vshading *s, const vvec3 *wi)
 static void note_scattered(map_tracer *t, int k, vmask active, const vscatter *next)
 {
     vint does    = vgather_int(t->job->s->material_does, vkeep_int(active, t->at[k].material));
-    vint before  = vload_int(t->state + k * LANES);
+    vint before  = vload_int(t->state + k * LANES) & ~COPY;
     vmask single = next->pdf == INFINITY;
     vmask plate  = ((does & DOES_SOLID) != 0) & ((does & DOES_LENS) == 0);
     vmask inner  = single & plate & ~next->bent & ~t->shading[k].front;
@@ -390,16 +419,25 @@ static void note_scattered(map_tracer *t, int k, vmask active, const vscatter *n
     vstore_int(t->state + k * LANES, vselect_int(on, before, after));
 }
 
+static bool aims(const map_tracer *t)
+{
+    return t->job->s->portal_count > 0 && t->job->kind == MAP_INDIRECT;
+}
+
+static vmask matt_lanes(const map_tracer *t, int k, vmask active)
+{
+    vint does = vgather_int(t->job->s->material_does, vkeep_int(active, t->at[k].material));
+    return active & ((does & (DOES_ASK | DOES_NARROW | DOES_AROUND | DOES_HOLLOW)) == DOES_ASK);
+}
+
 /* From matt surfaces before portals. What carries less as it was aimed does not end by that. */
 static vmask aim(map_tracer *t, int k, vmask active, vmask goes, vscatter *next)
 {
     const scene *s = t->job->s;
-    vint does      = vgather_int(s->material_does, vkeep_int(active, t->at[k].material));
-    vmask matt = (does & (DOES_ASK | DOES_NARROW | DOES_AROUND | DOES_HOLLOW)) == DOES_ASK;
     uint32_t seed = hash_combine_u32(hash_combine_u32(t->seed, 0xa13d), t->depth);
     vsample4 u    = vsobol4(vunsigned(vload_int(t->index + k * LANES)), vsplat_uint(seed));
     vfloat rarer;
-    goes = map_aim(s, &t->at[k], &t->shading[k], &u, active & matt, goes, next, &rarer);
+    goes = map_aim(s, &t->at[k], &t->shading[k], &u, matt_lanes(t, k, active), goes, next, &rarer);
     vstore(t->carried[FULL] + k * LANES, load(t, FULL, k) * rarer);
     return goes;
 }
@@ -413,7 +451,7 @@ static vmask next_direction(map_tracer *t, int k, vmask active, vscatter *next)
     vsample4 u        = vsobol4(index, vsplat_uint(seed));
     const vshading *h = &t->shading[k];
     vmask goes = materials_scatter(s->materials, t->at[k].material, h, u.x, u.y, u.z, active, next);
-    if (s->portal_count > 0 && t->job->kind == MAP_INDIRECT)
+    if (aims(t))
         goes = aim(t, k, active, goes, next);
     if (s->smooth || s->textured) {
         vmask turned = goes & ~next->straight;
@@ -443,12 +481,74 @@ static vmask next_direction(map_tracer *t, int k, vmask active, vscatter *next)
     return goes;
 }
 
+/* ---- splitting ------------------------------------------------------------------------------- */
+
+static map_copy copy_of(const map_tracer *t, int i)
+{
+    map_copy c = { t->image[i],    t->index[i],    t->group[i],    t->spare[i], t->state[i] | COPY,
+                   t->instance[i], t->triangle[i], t->distance[i], t->u[i],     t->v[i] };
+    for (int f = 0; f < FIELDS; f++)
+        c.carried[f] = t->carried[f][i];
+    return c;
+}
+
+static void split(map_tracer *t, int i, int parts)
+{
+    for (int f = FLUX; f <= FULL; f++)
+        t->carried[f][i] /= (float)parts;
+    map_copy c = copy_of(t, i);
+    for (int n = 1; n < parts; n++) {
+        c.index      = (int32_t)hash_combine_u32((uint32_t)t->index[i], (uint32_t)n + t->depth * MOST_PARTS);
+        map_copy *to = map_list_add(&t->copies);
+        if (to)
+            *to = c;
+        t->out->lost |= !to;
+    }
+}
+
+/* Particles that would bring a room too much at once. */
+static void split_heavy(map_tracer *t, int k, vmask active)
+{
+    vfloat flux  = vmax(load(t, FLUX, k), vmax(load(t, FLUX + 1, k), load(t, FLUX + 2, k)));
+    vfloat share = map_aim_share(t->job->s, &t->at[k], &t->shading[k], active);
+    vfloat heavy = vkeep(active, flux * share / (too_heavy * load(t, EVEN, k)));
+    vmask copies = (vload_int(t->state + k * LANES) & COPY) != 0;
+    for (int bits = vbits(active & ~copies & (heavy > 1.0f)); bits; bits &= bits - 1) {
+        int j = __builtin_ctz((unsigned)bits);
+        split(t, k * LANES + j, (int)fminf(ceilf(lane(heavy, j)), (float)MOST_PARTS));
+    }
+}
+
+/* Copies take the place of those that have all come to their end. */
+static void take_copies(map_tracer *t)
+{
+    map_list *from = &t->copies;
+    for (t->alive = 0; t->alive < MAP_BATCH && from->count > 0; t->alive++) {
+        const map_copy *c = (const map_copy *)from->items + --from->count;
+        int i          = t->alive;
+        t->image[i]    = c->image;
+        t->index[i]    = c->index;
+        t->group[i]    = c->group;
+        t->spare[i]    = c->spare;
+        t->state[i]    = c->state;
+        t->instance[i] = c->instance;
+        t->triangle[i] = c->triangle;
+        t->distance[i] = c->distance;
+        t->u[i]        = c->u;
+        t->v[i]        = c->v;
+        for (int f = 0; f < FIELDS; f++)
+            t->carried[f][i] = c->carried[f];
+    }
+}
+
 static void draw_directions(map_tracer *t)
 {
     int n = packets_of(t), kept = 0;
     for (int k = 0; k < n; k++) {
         vscatter next;
         vmask active = arrive(t, k);
+        if (aims(t))
+            split_heavy(t, k, active & matt_lanes(t, k, active));
         vmask goes   = next_direction(t, k, active, &next);
         note_scattered(t, k, active, &next);
         store3(t, PLACE, k, vray_start(&t->at[k], &next.wi));
@@ -469,5 +569,10 @@ void map_trace(map_tracer *t, const map_job *job, uint32_t first, int count, uin
     for (t->depth = 0; t->alive > 0; t->depth++) {
         go_on(t);
         draw_directions(t);
+        if (t->alive == 0 && t->copies.count > 0) {
+            take_copies(t);
+            t->depth++;
+            draw_directions(t);
+        }
     }
 }

@@ -8,8 +8,8 @@
  *     f cos / ((1 - a) p_f + a p_a)
  *
  * whichever way it was drawn (Veach and Guibas, SIGGRAPH 1995: the balance heuristic of one
- * sample). Of portals with centre c, area A, r from the place p, one is drawn in proportion to
- * about the light that it gets from there, A cos_p cos_c / (r^2 + A), then an even place on it.
+ * sample). Of portals with area A, r from the place p, one is drawn in proportion to
+ * about the light that it gets from there, A cos_p cos_c / (r^2 + A / 2), then an even place on it.
  */
 #include "sim/map_parts.h"
 
@@ -17,17 +17,30 @@ static const float aimed_share = 0.25f; /* a */
 
 static float area_of(const portal *q) { return 4.0f * v3_length(q->u) * v3_length(q->v); }
 
+/* From p to the place on the portal that is nearest. */
+static vvec3 way_to(const portal *q, const vvec3 *p)
+{
+    vvec3 to = vsub(vspread(q->centre), *p), u = vspread(q->u), v = vspread(q->v);
+    vfloat s = -vdot(to, u) / vdot(u, u), t = -vdot(to, v) / vdot(v, v);
+    vvec3 at = vadd(vscale(u, vmin(vmax(s, vsplat(-1.0f)), vsplat(1.0f))),
+                    vscale(v, vmin(vmax(t, vsplat(-1.0f)), vsplat(1.0f))));
+    return vadd(to, at);
+}
+
 /* What portal i is drawn in proportion to: 0 from behind it, and where it is below the horizon. */
 static vfloat chance_of(const portal *q, const vvec3 *p, const vvec3 *n)
 {
     float area    = area_of(q);
     vvec3 to      = vsub(vspread(q->centre), *p);
-    vfloat r2     = vdot(to, to);
+    vvec3 way     = way_to(q, p);
     vfloat across = vabs(vdot(*n, vspread(q->u))) + vabs(vdot(*n, vspread(q->v)));
-    vfloat before = vmax(-vdot(to, vspread(q->outward)), vsplat(0.0f));
-    vfloat above  = vmax(vdot(*n, to) + across, vsplat(0.0f)); /* of its highest corner */
-    vfloat near   = r2 + area;
-    return area * before * above / (near * near);
+    vfloat highest = vdot(*n, to) + across; /* of its corners */
+    vfloat before  = -vdot(to, vspread(q->outward));
+    vfloat d2      = vdot(way, way);
+    vfloat cos_c   = vmin(before / vsqrt(d2), vsplat(1.0f));
+    vfloat cos_p   = vmin(highest / vsqrt(vdot(to, to)), vsplat(1.0f));
+    vmask faces    = (before > 0.0f) & (highest > 0.0f);
+    return vkeep(faces, area * cos_c * cos_p / (d2 + 0.5f * area));
 }
 
 static vfloat sum_of_chances(const scene *s, const vvec3 *p, const vvec3 *n)

@@ -1,6 +1,6 @@
 /* sim/map_parts.h -- what the files of illumination_map.h share: map_mesh.c puts the triangles of
  * meshes in order, map_cells.c grows trees of cells over them, map_walls.c sees what stands on
- * cells, map_trace.c follows particles, map_aim.c sends them toward portals, map_sensors.c watches them pass, map_file.c keeps maps.
+ * cells, map_look.c asks, map_trace.c follows particles, map_aim.c sends them toward portals, map_sensors.c watches them pass, map_file.c keeps maps.
  *
  * A smooth piece of a mesh is a range of its triangles in an order along a space-filling curve. A
  * side of it in one instance is a sheet; each sheet to which particles came has a tree of cells:
@@ -180,6 +180,7 @@ struct illumination_map {
     int slots; /* all light, then each group if the scene is layered */
     int sensors;
     float *values;  /* W/m^2: of each bin, slot, set, 3 */
+    float *smoothed; /* W/m^2: of each node, slot, 3: by how much less its parent has; 0: none */
     float *dimming; /* of each group; NAN: its lamps differ */
     map_figures figures;
     uint64_t print[PRINTS];
@@ -193,6 +194,9 @@ static inline size_t map_value_at(const illumination_map *m, size_t bin, int slo
 {
     return ((bin * (size_t)m->slots + (size_t)slot) * SCRAMBLES + (size_t)set) * 3;
 }
+
+/* Fills in m->smoothed, once there are values (map_look.c). */
+bool map_find_smoothing(arena *a, illumination_map *m, lux_error *err);
 
 bool map_prints(const scene *s, const map_options *o, uint64_t print[PRINTS], lux_error *err);
 

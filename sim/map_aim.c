@@ -30,10 +30,10 @@ static vvec3 way_to(const portal *q, const vvec3 *p)
 /* What portal i is drawn in proportion to: 0 from behind it, and where it is below the horizon. */
 static vfloat chance_of(const portal *q, const vvec3 *p, const vvec3 *n)
 {
-    float area    = area_of(q);
-    vvec3 to      = vsub(vspread(q->centre), *p);
-    vvec3 way     = way_to(q, p);
-    vfloat across = vabs(vdot(*n, vspread(q->u))) + vabs(vdot(*n, vspread(q->v)));
+    float area     = area_of(q);
+    vvec3 to       = vsub(vspread(q->centre), *p);
+    vvec3 way      = way_to(q, p);
+    vfloat across  = vabs(vdot(*n, vspread(q->u))) + vabs(vdot(*n, vspread(q->v)));
     vfloat highest = vdot(*n, to) + across; /* of its corners */
     vfloat before  = -vdot(to, vspread(q->outward));
     vfloat d2      = vdot(way, way);
@@ -52,7 +52,8 @@ static vfloat sum_of_chances(const scene *s, const vvec3 *p, const vvec3 *n)
 }
 
 /* An even place on the portal that pick draws. */
-static vvec3 place_on_portal(const scene *s, const vvec3 *p, const vvec3 *n, vfloat at, const vfloat st[2])
+static vvec3 place_on_portal(const scene *s, const vvec3 *p, const vvec3 *n, vfloat at,
+                             const vfloat st[2])
 {
     vfloat before = vsplat(0.0f);
     vvec3 place   = *p;
@@ -91,9 +92,9 @@ vmask map_aim(const scene *s, const vsurface *at, const vshading *h, const vsamp
               vmask active, vmask goes, vscatter *next, vfloat *rarer)
 {
     const vvec3 *p = &at->position, *n = &h->n;
-    vfloat sum     = sum_of_chances(s, p, n);
-    vmask before   = active & (sum > 0.0f);
-    *rarer         = vsplat(1.0f);
+    vfloat sum   = sum_of_chances(s, p, n);
+    vmask before = active & (sum > 0.0f);
+    *rarer       = vsplat(1.0f);
     if (!vany(before))
         return goes;
     vmask aimed    = before & (u->x < aimed_share);
@@ -122,8 +123,8 @@ vmask map_aim(const scene *s, const vsurface *at, const vshading *h, const vsamp
 
 vfloat map_aim_share(const scene *s, const vsurface *at, const vshading *h, vmask active)
 {
-    vfloat sum   = sum_of_chances(s, &at->position, &h->n);
-    vrgb albedo  = materials_albedo(s->materials, at->material, h, active & (sum > 0.0f));
-    vfloat most  = vmax(albedo.x, vmax(albedo.y, albedo.z));
+    vfloat sum  = sum_of_chances(s, &at->position, &h->n);
+    vrgb albedo = materials_albedo(s->materials, at->material, h, active & (sum > 0.0f));
+    vfloat most = vmax(albedo.x, vmax(albedo.y, albedo.z));
     return most * sum * (0.318309886f / aimed_share);
 }

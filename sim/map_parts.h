@@ -1,6 +1,7 @@
 /* sim/map_parts.h -- what the files of illumination_map.h share: map_mesh.c puts the triangles of
  * meshes in order, map_cells.c grows trees of cells over them, map_walls.c sees what stands on
- * cells, map_look.c asks, map_trace.c follows particles, map_aim.c sends them toward portals, map_sensors.c watches them pass, map_file.c keeps maps.
+ * cells, map_look.c asks, map_trace.c follows particles, map_aim.c sends them toward portals,
+ * map_sensors.c watches them pass, map_file.c keeps maps.
  *
  * A smooth piece of a mesh is a range of its triangles in an order along a space-filling curve. A
  * side of it in one instance is a sheet; each sheet to which particles came has a tree of cells:
@@ -179,9 +180,9 @@ struct illumination_map {
     map_cells cells;
     int slots; /* all light, then each group if the scene is layered */
     int sensors;
-    float *values;  /* W/m^2: of each bin, slot, set, 3 */
+    float *values;   /* W/m^2: of each bin, slot, set, 3 */
     float *smoothed; /* W/m^2: of each node, slot, 3: by how much less its parent has; 0: none */
-    float *dimming; /* of each group; NAN: its lamps differ */
+    float *dimming;  /* of each group; NAN: its lamps differ */
     map_figures figures;
     uint64_t print[PRINTS];
 };

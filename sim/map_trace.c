@@ -93,7 +93,6 @@ void map_tracer_free(map_tracer *t)
         map_list_free(&t->copies);
 }
 
-
 void *map_list_add(map_list *l)
 {
     if (l->count == l->room) {
@@ -360,7 +359,7 @@ static vmask arrive(map_tracer *t, int k)
     vint does = vgather_int(s->material_does, vkeep_int(active, t->at[k].material));
     vfloat turned =
         s->smooth || s->textured ? tilt(&t->shading[k], &t->shading[k].wo) : vsplat(1.0f);
-    vrgb flux = vscale(load3(t, FLUX, k), turned);
+    vrgb flux    = vscale(load3(t, FLUX, k), turned);
     vmask copies = (vload_int(t->state + k * LANES) & COPY) != 0;
     for (int bits = vbits(active & counts(t, k) & ~copies); bits; bits &= bits - 1) {
         int j = __builtin_ctz((unsigned)bits), i = k * LANES + j;
@@ -434,8 +433,8 @@ static vmask matt_lanes(const map_tracer *t, int k, vmask active)
 static vmask aim(map_tracer *t, int k, vmask active, vmask goes, vscatter *next)
 {
     const scene *s = t->job->s;
-    uint32_t seed = hash_combine_u32(hash_combine_u32(t->seed, 0xa13d), t->depth);
-    vsample4 u    = vsobol4(vunsigned(vload_int(t->index + k * LANES)), vsplat_uint(seed));
+    uint32_t seed  = hash_combine_u32(hash_combine_u32(t->seed, 0xa13d), t->depth);
+    vsample4 u     = vsobol4(vunsigned(vload_int(t->index + k * LANES)), vsplat_uint(seed));
     vfloat rarer;
     goes = map_aim(s, &t->at[k], &t->shading[k], &u, matt_lanes(t, k, active), goes, next, &rarer);
     vstore(t->carried[FULL] + k * LANES, load(t, FULL, k) * rarer);
@@ -498,7 +497,8 @@ static void split(map_tracer *t, int i, int parts)
         t->carried[f][i] /= (float)parts;
     map_copy c = copy_of(t, i);
     for (int n = 1; n < parts; n++) {
-        c.index      = (int32_t)hash_combine_u32((uint32_t)t->index[i], (uint32_t)n + t->depth * MOST_PARTS);
+        c.index =
+            (int32_t)hash_combine_u32((uint32_t)t->index[i], (uint32_t)n + t->depth * MOST_PARTS);
         map_copy *to = map_list_add(&t->copies);
         if (to)
             *to = c;
@@ -525,17 +525,17 @@ static void take_copies(map_tracer *t)
     map_list *from = &t->copies;
     for (t->alive = 0; t->alive < MAP_BATCH && from->count > 0; t->alive++) {
         const map_copy *c = (const map_copy *)from->items + --from->count;
-        int i          = t->alive;
-        t->image[i]    = c->image;
-        t->index[i]    = c->index;
-        t->group[i]    = c->group;
-        t->spare[i]    = c->spare;
-        t->state[i]    = c->state;
-        t->instance[i] = c->instance;
-        t->triangle[i] = c->triangle;
-        t->distance[i] = c->distance;
-        t->u[i]        = c->u;
-        t->v[i]        = c->v;
+        int i             = t->alive;
+        t->image[i]       = c->image;
+        t->index[i]       = c->index;
+        t->group[i]       = c->group;
+        t->spare[i]       = c->spare;
+        t->state[i]       = c->state;
+        t->instance[i]    = c->instance;
+        t->triangle[i]    = c->triangle;
+        t->distance[i]    = c->distance;
+        t->u[i]           = c->u;
+        t->v[i]           = c->v;
         for (int f = 0; f < FIELDS; f++)
             t->carried[f][i] = c->carried[f];
     }
@@ -549,7 +549,7 @@ static void draw_directions(map_tracer *t)
         vmask active = arrive(t, k);
         if (aims(t))
             split_heavy(t, k, active & matt_lanes(t, k, active));
-        vmask goes   = next_direction(t, k, active, &next);
+        vmask goes = next_direction(t, k, active, &next);
         note_scattered(t, k, active, &next);
         store3(t, PLACE, k, vray_start(&t->at[k], &next.wi));
         store3(t, WAY, k, next.wi);

@@ -1,7 +1,7 @@
 /* sim/map_parts.h -- what the files of illumination_map.h share: map_mesh.c puts the triangles of
- * meshes in order, map_cells.c grows trees of cells over them, map_walls.c sees what stands on
- * cells, map_look.c asks, map_trace.c follows particles, map_aim.c sends them toward portals,
- * map_sensors.c watches them pass, map_file.c keeps maps.
+ * meshes in order, map_cells.c grows trees of cells over them, map_outline.c knows where these lie,
+ * map_walls.c sees what stands on them, map_trace.c follows particles, map_aim.c sends them toward
+ * portals, map_sensors.c watches them pass, map_look.c answers, map_file.c keeps maps.
  *
  * A smooth piece of a mesh is a range of its triangles in an order along a space-filling curve. A
  * side of it in one instance is a sheet; each sheet to which particles came has a tree of cells:
@@ -87,6 +87,39 @@ double map_lit_area(const map_growth *g, const map_cells *c);
 /* The leaf at a place, or -1: no cell, or one without a value. */
 int32_t map_cells_find(const map_cells *c, uint32_t placed, const map_mark *at);
 
+/* ---- parts of a mesh ------------------------------------------------------------------------- */
+
+/* What a tree lies on: one side of a mesh where it stands. */
+typedef struct map_ground {
+    const world *world;
+    const map_mesh *mesh;
+    int32_t instance;
+    bool front, mirrors; /* the side; the place turns it over */
+    transform place;
+    double rounding; /* m: what coordinates are off by */
+} map_ground;
+
+/* What a cell lies on. */
+typedef struct map_part {
+    int32_t low, high; /* ranks; of one triangle high = low + 1 */
+    bool single;
+    dvec3 corner[3]; /* m, in the world; of a single one or of a part of it */
+} map_part;
+
+/* The corners of the triangle of a rank, m, in the world; what it is made of. */
+uint32_t map_triangle_at(const map_ground *on, int32_t rank, dvec3 c[3]);
+
+/* The edge at which a triangle is bisected, and half of it. */
+int map_longest_edge(const dvec3 c[3], double *length);
+void map_halve(dvec3 c[3], int edge, int half);
+
+double map_part_area(const map_ground *on, const map_part *p); /* m^2 */
+double map_part_size(const map_ground *on,
+                     const map_part *p); /* m, the longest way across, about */
+
+/* The mean normal; false where those of its triangles are too far apart for one cell. */
+bool map_part_normal(const map_ground *on, const map_part *p, dvec3 *mean);
+
 /* ---- walls ----------------------------------------------------------------------------------- */
 
 /* A cell as its outline and places on it: m, in the world, on the side that is lit. */
@@ -99,6 +132,9 @@ typedef struct map_outline {
     double bulge; /* m: how far it reaches above the first ring's place along normal */
     double size;  /* m, the longest way across */
 } map_outline;
+
+/* All of it but the normal, which stands there. */
+void map_part_outline(const map_ground *on, const map_part *p, double size, map_outline *o);
 
 /* Whether something stands on the cell or lies on a part of it. */
 bool map_is_walled(const scene *s, const map_outline *o);

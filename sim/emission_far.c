@@ -62,7 +62,7 @@ static vfloat portals_on_line(const emission *e, const vvec3 *p, const vvec3 *wi
 typedef struct vline {
     vvec3 origin; /* m, before the sphere */
     vfloat open, through;
-    vfloat once; /* the latter of one that goes in by one portal */
+    vmask in; /* it goes in by a portal */
 } vline;
 
 static vline draw_line(const emission *e, const vvec3 *wi, const vfloat st[2], vfloat pick,
@@ -81,7 +81,7 @@ static vline draw_line(const emission *e, const vvec3 *wi, const vfloat st[2], v
         vfloat n   = portals_on_line(e, &place, wi);
         n          = vselect(through, vmax(n, vsplat(1.0f)), n); /* rounded past its edge */
         l.through  = vkeep(sum > 0.0f, n / sum);
-        l.once     = vkeep(sum > 0.0f, 1.0f / sum);
+        l.in       = l.through > 0.0f;
     }
     vfloat ahead = vdot(vsub(place, centre), *wi);
     l.origin     = valong(place, *wi, e->around.radius - ahead);
@@ -98,10 +98,13 @@ static vmask choose_way(float through, vfloat *pick)
     return by_portal;
 }
 
-/* Of a line by its density and what that would be if it went in by one portal. */
-static vfloat evenness(vfloat density, vfloat by_one)
+/* k / (k + 1) of those that go in by none, as all have the flux of 1 / (k + N). */
+static vfloat evenness(const emission *e, const vline *line)
 {
-    return vmin(density / by_one, vsplat(1.0f));
+    float k = (float)e->rare;
+    if (e->portal_count == 0)
+        return vsplat(1.0f);
+    return vselect(line->in, vsplat(1.0f), vsplat(k / (k + 1.0f)));
 }
 
 static void set_ray(vparticle *out, const vvec3 *origin, const vvec3 *wi, vmask lit)
@@ -140,7 +143,7 @@ vmask emission_draw_light(const emission *e, int which, const emission_numbers *
 
     set_ray(out, &line.origin, &of.wi, lit);
     out->flux = vkeep3(lit, vscale(of.e, 1.0f / density));
-    out->even = vkeep(lit, evenness(density, (1.0f - through) * line.open + through * line.once));
+    out->even = vkeep(lit, evenness(e, &line));
     return lit;
 }
 
@@ -199,13 +202,12 @@ vmask emission_draw_sky(const emission *e, int which, const emission_numbers *n,
     const vfloat st[2] = { n->u.x, n->u.y };
     vline line         = draw_line(e, &wi, st, n->portal, way);
     vfloat density = (1.0f - through) * by_open * line.open + through * by_portals * line.through;
-    vfloat by_one  = (1.0f - through) * by_open * line.open + through * by_portals * line.once;
     vmask lit      = active & (density > 0.0f) & (~way | (line.through > 0.0f));
     vrgb radiance  = draw_radiance(e, from, &wi, pick, lit, out);
     lit &= vrgb_luminance(radiance) > 0.0f;
 
     set_ray(out, &line.origin, &wi, lit);
     out->flux = vkeep3(lit, vscale(radiance, 1.0f / density));
-    out->even = vkeep(lit, evenness(density, by_one));
+    out->even = vkeep(lit, evenness(e, &line));
     return lit;
 }

@@ -21,8 +21,8 @@ enum {
     CELL_PARTICLES   = 512, /* that a cell gets at most, where memory allows */
     FEWEST_PARTICLES = 32,  /* that a sheet is to get to have cells */
 };
-static const double most_bytes   = 768e6;     /* of values while they are added up */
-static const double gather_share = 0.5; /* of the accuracy: the maps' noise in a gather */
+static const double most_bytes   = 768e6; /* of values while they are added up */
+static const double gather_share = 0.5;   /* of the accuracy: the maps' noise in a gather */
 
 typedef struct map_run {
     const map_options *o;

@@ -41,6 +41,7 @@ static vmask draw_near(const emission *e, int which, const emission_numbers *n, 
     out->ray   = (vray){ vkeep3(lit, valong(o, ray.direction, far * ahead)), ray.direction,
                          vkeep(lit, vsplat(INFINITY)) };
     out->flux  = ray.flux;
+    out->even  = vkeep(lit, vsplat(1.0f));
     return lit;
 }
 
@@ -63,6 +64,7 @@ static vparticle choose(vmask m, const vparticle *a, const vparticle *b)
                                     vselect3(m, a->ray.direction, b->ray.direction),
                                     vselect(m, a->ray.reach, b->ray.reach) },
                         .flux   = vselect3(m, a->flux, b->flux),
+                        .even   = vselect(m, a->even, b->even),
                         .source = vselect_int(m, a->source, b->source),
                         .group  = vselect_int(m, a->group, b->group),
                         .spare  = vselect_int(m, a->spare, b->spare) };

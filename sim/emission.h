@@ -33,6 +33,7 @@ double emission_missing(const emission *e);
 typedef struct vparticle {
     vray ray;    /* where it begins (a little off the lamp) and goes; ends at infinity */
     vrgb flux;   /* W, the density divided out */
+    vfloat even; /* (0, 1]: times that, as much as those have that portals let in */
     vint source; /* of scene.lights, lamps, suns, emitters; -1 - i: of scene.skies[i] */
     vint group;  /* of scene.groups */
     vint spare;  /* instances with this owner do not see it (world_any_hit); 0: all do */

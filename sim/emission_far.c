@@ -62,6 +62,7 @@ static vfloat portals_on_line(const emission *e, const vvec3 *p, const vvec3 *wi
 typedef struct vline {
     vvec3 origin; /* m, before the sphere */
     vfloat open, through;
+    vmask in; /* it goes in by a portal */
 } vline;
 
 static vline draw_line(const emission *e, const vvec3 *wi, const vfloat st[2], vfloat pick,
@@ -80,6 +81,7 @@ static vline draw_line(const emission *e, const vvec3 *wi, const vfloat st[2], v
         vfloat n   = portals_on_line(e, &place, wi);
         n          = vselect(through, vmax(n, vsplat(1.0f)), n); /* rounded past its edge */
         l.through  = vkeep(sum > 0.0f, n / sum);
+        l.in       = l.through > 0.0f;
     }
     vfloat ahead = vdot(vsub(place, centre), *wi);
     l.origin     = valong(place, *wi, e->around.radius - ahead);
@@ -94,6 +96,15 @@ static vmask choose_way(float through, vfloat *pick)
     vfloat open     = (*pick - through) / (1.0f - through);
     *pick           = vmin(vselect(by_portal, inside, open), vsplat(0x1.fffffep-1f));
     return by_portal;
+}
+
+/* k / (k + 1) of those that go in by none, as all have the flux of 1 / (k + N). */
+static vfloat evenness(const emission *e, const vline *line)
+{
+    float k = (float)e->rare;
+    if (e->portal_count == 0)
+        return vsplat(1.0f);
+    return vselect(line->in, vsplat(1.0f), vsplat(k / (k + 1.0f)));
 }
 
 static void set_ray(vparticle *out, const vvec3 *origin, const vvec3 *wi, vmask lit)
@@ -132,6 +143,7 @@ vmask emission_draw_light(const emission *e, int which, const emission_numbers *
 
     set_ray(out, &line.origin, &of.wi, lit);
     out->flux = vkeep3(lit, vscale(of.e, 1.0f / density));
+    out->even = vkeep(lit, evenness(e, &line));
     return lit;
 }
 
@@ -196,5 +208,6 @@ vmask emission_draw_sky(const emission *e, int which, const emission_numbers *n,
 
     set_ray(out, &line.origin, &wi, lit);
     out->flux = vkeep3(lit, vscale(radiance, 1.0f / density));
+    out->even = vkeep(lit, evenness(e, &line));
     return lit;
 }

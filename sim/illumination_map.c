@@ -21,8 +21,8 @@ enum {
     CELL_PARTICLES   = 512, /* that a cell gets at most, where memory allows */
     FEWEST_PARTICLES = 32,  /* that a sheet is to get to have cells */
 };
-static const double most_bytes   = 768e6;     /* of values while they are added up */
-static const double gather_share = 1.0 / 3.0; /* of the accuracy: the maps' noise in a gather */
+static const double most_bytes   = 768e6; /* of values while they are added up */
+static const double gather_share = 0.5;   /* of the accuracy: the maps' noise in a gather */
 
 typedef struct map_run {
     const map_options *o;
@@ -312,7 +312,7 @@ static bool make_map(arena *a, arena *scratch, map_run *r, map_list *marks, lux_
     if (!send_particles(r, chunks, err))
         return false;
     make_values(r, s ? (double)s->side : 0.0);
-    return true;
+    return map_find_smoothing(a, m, err);
 }
 
 static vec3 watts(const double sum[3], double particles)
@@ -363,53 +363,10 @@ const illumination_map *illumination_map_new(arena *a, const scene *s, const map
     for (int i = 0; i < WAVE_CHUNKS; i++)
         map_list_free(&r->lists[i]);
     map_list_free(&marks);
+    for (int i = 0; r->tracers && i < o->threads; i++)
+        map_tracer_free(r->tracers[i]);
     arena_clear(&scratch);
     return done ? m : NULL;
 }
 
 map_figures illumination_map_figures(const illumination_map *m) { return m->figures; }
-
-/* ---- asking ---------------------------------------------------------------------------------- */
-
-static vec3 value_of(const illumination_map *m, size_t bin, int group, int set)
-{
-    int slot       = m->slots == 1 || group < 0 ? 0 : 1 + group;
-    const float *v = m->values + map_value_at(m, bin, slot, set);
-    return (vec3){ v[0], v[1], v[2] };
-}
-
-vmask illumination_map_look(const illumination_map *m, const vhit *hit, vmask front, vint set,
-                            int group, vmask active, vrgb *fine, vrgb *coarse)
-{
-    float f[3][LANES] = { 0 }, p[3][LANES] = { 0 };
-    int32_t known[LANES] = { 0 };
-    for (int bits = vbits(active & (hit->instance >= 0)); bits; bits &= bits - 1) {
-        int i       = __builtin_ctz((unsigned)bits);
-        map_mark at = { .instance = lane(hit->instance, i),
-                        .triangle = lane(hit->triangle, i),
-                        .front    = vbits(front) >> i & 1,
-                        .u        = lane(hit->u, i),
-                        .v        = lane(hit->v, i) };
-        int32_t n   = map_cells_find(&m->cells, world_mesh(m->s->world, at.instance), &at);
-        if (n < 0)
-            continue;
-        int32_t parent = m->cells.nodes[n].parent;
-        bool whole     = parent >= 0 && !m->cells.nodes[parent].walled;
-        vec3 e         = value_of(m, (size_t)n, group, lane(set, i));
-        vec3 c         = value_of(m, (size_t)(whole ? parent : n), group, lane(set, i));
-        known[i]       = 1;
-        f[0][i] = e.x, f[1][i] = e.y, f[2][i] = e.z;
-        p[0][i] = c.x, p[1][i] = c.y, p[2][i] = c.z;
-    }
-    *fine   = (vrgb){ vload(f[0]), vload(f[1]), vload(f[2]) };
-    *coarse = (vrgb){ vload(p[0]), vload(p[1]), vload(p[2]) };
-    return vload_int(known) != 0;
-}
-
-vec3 illumination_map_at_sensor(const illumination_map *m, int sensor, int set, int group,
-                                vec3 *coarse)
-{
-    size_t bin = (size_t)m->cells.node_count + 2 * (size_t)sensor;
-    *coarse    = value_of(m, bin + 1, group, set);
-    return value_of(m, bin, group, set);
-}

@@ -59,7 +59,7 @@ const illumination_map *illumination_map_new(arena *a, const scene *s, const map
 
 /* The lanes where the map knows the irradiance at the hit on the side that `front` says, W/m^2, by
  * channel, of all light as dimmed or (group >= 0) of a group undimmed; by map number `set`, <
- * SCRAMBLES. *coarse: the same by the cell's parent. */
+ * SCRAMBLES. *coarse: the same by the cell's parent, but for its noise. */
 vmask illumination_map_look(const illumination_map *m, const vhit *hit, vmask front, vint set,
                             int group, vmask active, vrgb *fine, vrgb *coarse);
 

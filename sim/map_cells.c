@@ -14,85 +14,25 @@
 static const double differ_sigmas = 3.0;
 static const double fewest        = 8.0;  /* particles to come: a cell of fewer is not divided */
 static const double few_that_tell = 12.0; /* pilots of a half: of fewer, noise is not known */
-static const double flat_cosine   = 0.94; /* of a cell's normals with their mean: 20 degrees */
 static const double walled_size   = 0.02; /* m: cells under walls are divided so far, */
 static const double walled_share  = 1.0 / 64.0; /* or to this share of the piece's width */
 static const double least_size    = 1e-3;       /* m: no cell is divided below */
 
 typedef struct part {
+    map_part of;
     int32_t node;
-    int32_t low, high; /* ranks; of one triangle high = low + 1 */
-    bool single;
-    dvec3 corner[3]; /* m, in the world; of a single one or of a part of it */
     size_t from, to; /* its marks */
 } part;
 
 typedef struct grower {
     const map_growth *g;
-    const map_mesh *mesh;
     map_list nodes;
-    int32_t instance;
-    bool front;
-    transform place;
-    bool mirrors;
+    map_ground on;
     double walled_size; /* m */
-    double rounding;    /* m: what coordinates are off by */
 } grower;
 
-/* ---- geometry -------------------------------------------------------------------------------- */
-
-static uint32_t triangle_at(const grower *w, int32_t rank, dvec3 c[3])
-{
-    uint32_t made_of = world_triangle(w->g->s->world, w->instance, w->mesh->order[rank], c);
-    for (int i = 0; i < 3; i++)
-        c[i] = transform_point(&w->place, c[i]);
-    return made_of;
-}
-
-/* Of length twice the area, on the lit side. */
-static dvec3 lit_normal(const grower *w, const dvec3 c[3])
-{
-    dvec3 n = d3_cross(d3_sub(c[1], c[0]), d3_sub(c[2], c[0]));
-    return w->mirrors == w->front ? d3_scale(n, -1.0) : n;
-}
-
-static double area_of(const grower *w, const part *p)
-{
-    if (p->single)
-        return 0.5 * d3_length(lit_normal(w, p->corner));
-    double sum = 0.0;
-    dvec3 c[3];
-    for (int32_t r = p->low; r < p->high; r++) {
-        triangle_at(w, r, c);
-        sum += 0.5 * d3_length(lit_normal(w, c));
-    }
-    return sum;
-}
-
-static int longest_edge(const dvec3 c[3], double *length)
-{
-    int longest = 0;
-    *length     = -1.0;
-    for (int e = 0; e < 3; e++) {
-        double l = d3_length(d3_sub(c[(e + 1) % 3], c[e]));
-        if (l > *length * (1.0 + 1e-9)) /* of equal ones the first, whatever rounds */
-            *length = l, longest = e;
-    }
-    return longest;
-}
-
-static dvec3 middle_of(const dvec3 c[3])
-{
-    return d3_scale(d3_add(c[0], d3_add(c[1], c[2])), 1.0 / 3.0);
-}
-
-/* Half of a bisected triangle. */
-static void halve(dvec3 c[3], int edge, int half)
-{
-    int i = edge, j = (edge + 1) % 3;
-    dvec3 m         = d3_scale(d3_add(c[i], c[j]), 0.5);
-    c[half ? i : j] = m;
-}
+/* ---- growing -----------------------------------------------------------------------------------
+ */
 
 /* The half that a place is in; its weights become those of that half's corners. */
 static int descend(float w[3], int edge)
@@ -107,122 +47,6 @@ static int descend(float w[3], int edge)
     w[i] = 2.0f * w[i];
     return 1;
 }
-
-/* ---- outlines -------------------------------------------------------------------------------- */
-
-static void outline_single(const part *p, double pull, map_outline *o)
-{
-    dvec3 middle = middle_of(p->corner);
-    for (int i = 0; i < 3; i++) {
-        dvec3 q        = d3_add(p->corner[i], d3_scale(d3_sub(middle, p->corner[i]), pull));
-        dvec3 next     = p->corner[(i + 1) % 3];
-        dvec3 edge     = d3_scale(d3_add(p->corner[i], next), 0.5);
-        o->ring[i]     = q;
-        o->feet[i]     = q;
-        o->feet[3 + i] = d3_add(edge, d3_scale(d3_sub(middle, edge), pull));
-        o->feet[6 + i] = d3_scale(d3_add(p->corner[i], middle), 0.5);
-    }
-    o->feet[9] = middle;
-    o->rings   = 3;
-    o->foots   = 10;
-}
-
-/* The corners that lie farthest out in each of MOST_RING directions along the cell. */
-static void outline_many(const grower *w, const part *p, double pull, map_outline *o)
-{
-    vec3 u, v, n = d3_to_float(o->normal);
-    v3_frame(n, &u, &v);
-    double farthest[MOST_RING];
-    dvec3 sum = { 0, 0, 0 }, c[3];
-    for (int k = 0; k < MOST_RING; k++)
-        farthest[k] = -HUGE_VAL;
-    for (int32_t r = p->low; r < p->high; r++) {
-        triangle_at(w, r, c);
-        sum = d3_add(sum, middle_of(c));
-        for (int i = 0; i < 3; i++)
-            for (int k = 0; k < MOST_RING; k++) {
-                double turn = 2.0 * M_PI * k / MOST_RING;
-                double out =
-                    cos(turn) * d3_dot(c[i], d3_from(u)) + sin(turn) * d3_dot(c[i], d3_from(v));
-                if (out > farthest[k])
-                    farthest[k] = out, o->ring[k] = c[i];
-            }
-    }
-    dvec3 middle = d3_scale(sum, 1.0 / (p->high - p->low));
-    for (int k = 0; k < MOST_RING; k++)
-        o->ring[k] = d3_add(o->ring[k], d3_scale(d3_sub(middle, o->ring[k]), pull));
-    o->rings      = MOST_RING;
-    int32_t count = p->high - p->low;
-    o->foots      = count < MOST_FEET ? count : MOST_FEET;
-    for (int k = 0; k < o->foots; k++) {
-        triangle_at(w, p->low + (int32_t)((int64_t)count * k / o->foots), c);
-        o->feet[k] = middle_of(c);
-    }
-}
-
-/* The mean normal; false where those of its triangles are too far apart for one cell. */
-static bool mean_normal(const grower *w, const part *p, dvec3 *mean)
-{
-    dvec3 c[3], sum = { 0, 0, 0 };
-    if (p->single)
-        sum = lit_normal(w, p->corner);
-    for (int32_t r = p->low; !p->single && r < p->high; r++) {
-        triangle_at(w, r, c);
-        sum = d3_add(sum, lit_normal(w, c));
-    }
-    double length = d3_length(sum);
-    if (!(length > 0.0))
-        return false;
-    *mean = d3_scale(sum, 1.0 / length);
-    for (int32_t r = p->low; !p->single && r < p->high; r++) {
-        triangle_at(w, r, c);
-        dvec3 n = lit_normal(w, c);
-        if (d3_dot(n, *mean) < flat_cosine * d3_length(n))
-            return false;
-    }
-    return true;
-}
-
-/* Its longest way across, m, about. */
-static double size_of(const grower *w, const part *p)
-{
-    double size = 0.0;
-    dvec3 c[3];
-    if (p->single) {
-        longest_edge(p->corner, &size);
-        return size;
-    }
-    dvec3 low = { HUGE_VAL, HUGE_VAL, HUGE_VAL }, high = { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
-    for (int32_t r = p->low; r < p->high; r++) {
-        triangle_at(w, r, c);
-        for (int i = 0; i < 3; i++) {
-            low  = (dvec3){ fmin(low.x, c[i].x), fmin(low.y, c[i].y), fmin(low.z, c[i].z) };
-            high = (dvec3){ fmax(high.x, c[i].x), fmax(high.y, c[i].y), fmax(high.z, c[i].z) };
-        }
-    }
-    return d3_length(d3_sub(high, low));
-}
-
-static void outline_of(const grower *w, const part *p, double size, map_outline *o)
-{
-    /* Off its edges by no more than rounding needs: walls beside them are not on it */
-    double pull = fmin(0.25, 8.0 * w->rounding / size);
-    o->size     = size;
-    o->bulge    = 0.0;
-    if (p->single) {
-        outline_single(p, pull, o);
-        return;
-    }
-    outline_many(w, p, pull, o);
-    dvec3 c[3];
-    for (int32_t r = p->low; r < p->high; r++) {
-        triangle_at(w, r, c);
-        for (int i = 0; i < 3; i++)
-            o->bulge = fmax(o->bulge, d3_dot(d3_sub(c[i], o->ring[0]), o->normal));
-    }
-}
-
-/* ---- growing --------------------------------------------------------------------------------- */
 
 static map_node *node_at(grower *w, int32_t node) { return (map_node *)w->nodes.items + node; }
 
@@ -257,9 +81,9 @@ static int32_t split_rank(const map_mesh *m, int32_t low, int32_t high)
 static int half_of(const grower *w, const part *p, int32_t split, const map_mark *mark, float to[3])
 {
     to[0] = 1.0f - mark->u - mark->v, to[1] = mark->u, to[2] = mark->v;
-    if (p->single)
+    if (p->of.single)
         return descend(to, ~split);
-    return w->mesh->rank[mark->triangle] >= split;
+    return w->on.mesh->rank[mark->triangle] >= split;
 }
 
 /* The halves of p; the marks of the first come first. */
@@ -271,7 +95,7 @@ static void divide(grower *w, const part *p, int32_t split, part half[2])
         float to[3];
         int second    = half_of(w, p, split, &marks[i], to);
         map_mark mark = marks[i];
-        if (p->single)
+        if (p->of.single)
             mark.u = to[1], mark.v = to[2];
         marks[i] = mark;
         if (!second) {
@@ -283,15 +107,15 @@ static void divide(grower *w, const part *p, int32_t split, part half[2])
         half[k]      = *p;
         half[k].from = k ? next : p->from;
         half[k].to   = k ? p->to : next;
-        if (p->single) {
-            halve(half[k].corner, ~split, k);
+        if (p->of.single) {
+            map_halve(half[k].of.corner, ~split, k);
             continue;
         }
-        half[k].low    = k ? split : p->low;
-        half[k].high   = k ? p->high : split;
-        half[k].single = half[k].high - half[k].low == 1;
-        if (half[k].single)
-            triangle_at(w, half[k].low, half[k].corner);
+        half[k].of.low    = k ? split : p->of.low;
+        half[k].of.high   = k ? p->of.high : split;
+        half[k].of.single = half[k].of.high - half[k].of.low == 1;
+        if (half[k].of.single)
+            map_triangle_at(&w->on, half[k].of.low, half[k].of.corner);
     }
 }
 
@@ -312,11 +136,11 @@ static bool light_differs(grower *w, const part *p, int32_t split)
         return false;
     double whole    = node_at(w, p->node)->area;
     double share[2] = { 0.5, 0.5 };
-    if (!p->single) {
-        part first = *p;
-        first.high = split;
-        share[0]   = area_of(w, &first) / whole;
-        share[1]   = 1.0 - share[0];
+    if (!p->of.single) {
+        map_part first = p->of;
+        first.high     = split;
+        share[0]       = map_part_area(&w->on, &first) / whole;
+        share[1]       = 1.0 - share[0];
     }
     if (!(share[0] > 0.0 && share[1] > 0.0))
         return false;
@@ -329,19 +153,19 @@ typedef enum verdict { VERDICT_LEAF, VERDICT_DIVIDE, VERDICT_NO_VALUE } verdict;
 
 static verdict judge(grower *w, const part *p, int32_t split)
 {
-    double size     = size_of(w, p);
+    double size     = map_part_size(&w->on, &p->of);
     double expected = w->g->scale * (double)(p->to - p->from);
     bool can =
-        expected >= fewest && (!p->single || size > least_size) && w->nodes.count < w->g->most;
+        expected >= fewest && (!p->of.single || size > least_size) && w->nodes.count < w->g->most;
     if (can &&
         (expected > w->g->least || (expected > 0.25 * w->g->least && light_differs(w, p, split))))
         return VERDICT_DIVIDE;
 
     map_outline o;
-    bool flat = mean_normal(w, p, &o.normal);
+    bool flat = map_part_normal(&w->on, &p->of, &o.normal);
     if (!flat)
         return can ? VERDICT_DIVIDE : VERDICT_NO_VALUE;
-    outline_of(w, p, size, &o);
+    map_part_outline(&w->on, &p->of, size, &o);
     if (!map_is_walled(w->g->s, &o))
         return VERDICT_LEAF;
     return can && size > w->walled_size ? VERDICT_DIVIDE : VERDICT_NO_VALUE;
@@ -350,9 +174,9 @@ static verdict judge(grower *w, const part *p, int32_t split)
 static bool grow(grower *w, const part *p)
 {
     double longest;
-    int32_t split             = p->single ? ~(int32_t)longest_edge(p->corner, &longest)
-                                          : split_rank(w->mesh, p->low, p->high);
-    node_at(w, p->node)->area = area_of(w, p);
+    int32_t split             = p->of.single ? ~(int32_t)map_longest_edge(p->of.corner, &longest)
+                                             : split_rank(w->on.mesh, p->of.low, p->of.high);
+    node_at(w, p->node)->area = map_part_area(&w->on, &p->of);
     verdict v                 = judge(w, p, split);
     if (v != VERDICT_DIVIDE) {
         node_at(w, p->node)->walled = v == VERDICT_NO_VALUE ? NODE_WALLED : NODE_FREE;
@@ -388,29 +212,27 @@ static uint32_t slot_of(const map_cells *c, int32_t instance, int32_t piece, int
 }
 
 /* The sheet of a mark, all of it. */
-static part find_sheet(grower *w, const map_cells *c, const map_mark *mark)
+static map_part find_sheet(const scene *s, const map_cells *c, const map_mark *mark, map_ground *on)
 {
-    const scene *s = w->g->s;
-    w->instance    = mark->instance;
-    w->front       = mark->front != 0;
-    w->mesh        = &c->meshes[world_mesh(s->world, mark->instance)];
-    w->place       = world_place(s->world, mark->instance);
-    w->mirrors     = transform_determinant(&w->place) < 0.0;
-    part p   = { .low = w->mesh->first[mark->piece], .high = w->mesh->first[mark->piece + 1] };
-    p.single = p.high - p.low == 1;
+    on->world    = s->world;
+    on->instance = mark->instance;
+    on->front    = mark->front != 0;
+    on->mesh     = &c->meshes[world_mesh(s->world, mark->instance)];
+    on->place    = world_place(s->world, mark->instance);
+    on->mirrors  = transform_determinant(&on->place) < 0.0;
+    map_part p = { .low = on->mesh->first[mark->piece], .high = on->mesh->first[mark->piece + 1] };
+    p.single   = p.high - p.low == 1;
     if (p.single)
-        triangle_at(w, p.low, p.corner);
+        map_triangle_at(on, p.low, p.corner);
     return p;
 }
 
 static bool grow_sheet(grower *w, const map_cells *c, size_t from, size_t to)
 {
     const map_mark *mark = &w->g->marks[from];
-    part p               = find_sheet(w, c, mark);
-    w->walled_size       = fmin(walled_size, walled_share * area_of(w, &p) / size_of(w, &p));
-    w->walled_size       = fmax(w->walled_size, least_size);
-    p.from               = from;
-    p.to                 = to;
+    part p               = { find_sheet(w->g->s, c, mark, &w->on), .from = from, .to = to };
+    double width         = map_part_area(&w->on, &p.of) / map_part_size(&w->on, &p.of);
+    w->walled_size       = fmax(fmin(walled_size, walled_share * width), least_size);
     p.node               = add_node(w, -1);
     if (p.node < 0)
         return false;
@@ -491,9 +313,9 @@ double map_lit_area(const map_growth *g, const map_cells *c)
     sort_marks(g, c);
     double flux = 0.0, flux2 = 0.0;
     for (size_t from = 0, to; from < g->mark_count; from = to) {
-        grower w   = { .g = g };
-        part p     = find_sheet(&w, c, &g->marks[from]);
-        double sum = 0.0, area = area_of(&w, &p);
+        map_ground on = { 0 };
+        map_part p    = find_sheet(g->s, c, &g->marks[from], &on);
+        double sum = 0.0, area = map_part_area(&on, &p);
         to = end_of_sheet(g, from);
         for (size_t i = from; i < to; i++)
             sum += (double)g->marks[i].weight;
@@ -508,7 +330,9 @@ bool map_cells_grow(arena *a, const map_growth *g, map_cells *c, lux_error *err)
     sort_marks(g, c);
     if (!make_table(a, g, c, err))
         return false;
-    grower w  = { .g = g, .nodes = { .size = sizeof(map_node) }, .rounding = rounding_of(g->s) };
+    grower w  = { .g     = g,
+                  .nodes = { .size = sizeof(map_node) },
+                  .on    = { .rounding = rounding_of(g->s) } };
     bool done = true;
     for (size_t from = 0, to; done && from < g->mark_count; from = to) {
         to = end_of_sheet(g, from);

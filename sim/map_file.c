@@ -418,7 +418,7 @@ static const illumination_map *read_bytes(arena *a, const char *path, map_bytes 
         *why = "dimming of lamps within a group";
         return NULL;
     }
-    return m;
+    return map_find_smoothing(a, m, err) ? m : NULL;
 }
 
 const illumination_map *illumination_map_read(arena *a, const char *path, const scene *s,

@@ -1,6 +1,7 @@
 /* sim/map_parts.h -- what the files of illumination_map.h share: map_mesh.c puts the triangles of
- * meshes in order, map_cells.c grows trees of cells over them, map_walls.c sees what stands on
- * cells, map_trace.c follows particles, map_sensors.c watches them pass, map_file.c keeps maps.
+ * meshes in order, map_cells.c grows trees of cells over them, map_outline.c knows where these lie,
+ * map_walls.c sees what stands on them, map_trace.c follows particles, map_aim.c sends them toward
+ * portals, map_sensors.c watches them pass, map_look.c answers, map_file.c keeps maps.
  *
  * A smooth piece of a mesh is a range of its triangles in an order along a space-filling curve. A
  * side of it in one instance is a sheet; each sheet to which particles came has a tree of cells:
@@ -86,6 +87,39 @@ double map_lit_area(const map_growth *g, const map_cells *c);
 /* The leaf at a place, or -1: no cell, or one without a value. */
 int32_t map_cells_find(const map_cells *c, uint32_t placed, const map_mark *at);
 
+/* ---- parts of a mesh ------------------------------------------------------------------------- */
+
+/* What a tree lies on: one side of a mesh where it stands. */
+typedef struct map_ground {
+    const world *world;
+    const map_mesh *mesh;
+    int32_t instance;
+    bool front, mirrors; /* the side; the place turns it over */
+    transform place;
+    double rounding; /* m: what coordinates are off by */
+} map_ground;
+
+/* What a cell lies on. */
+typedef struct map_part {
+    int32_t low, high; /* ranks; of one triangle high = low + 1 */
+    bool single;
+    dvec3 corner[3]; /* m, in the world; of a single one or of a part of it */
+} map_part;
+
+/* The corners of the triangle of a rank, m, in the world; what it is made of. */
+uint32_t map_triangle_at(const map_ground *on, int32_t rank, dvec3 c[3]);
+
+/* The edge at which a triangle is bisected, and half of it. */
+int map_longest_edge(const dvec3 c[3], double *length);
+void map_halve(dvec3 c[3], int edge, int half);
+
+double map_part_area(const map_ground *on, const map_part *p); /* m^2 */
+double map_part_size(const map_ground *on,
+                     const map_part *p); /* m, the longest way across, about */
+
+/* The mean normal; false where those of its triangles are too far apart for one cell. */
+bool map_part_normal(const map_ground *on, const map_part *p, dvec3 *mean);
+
 /* ---- walls ----------------------------------------------------------------------------------- */
 
 /* A cell as its outline and places on it: m, in the world, on the side that is lit. */
@@ -98,6 +132,9 @@ typedef struct map_outline {
     double bulge; /* m: how far it reaches above the first ring's place along normal */
     double size;  /* m, the longest way across */
 } map_outline;
+
+/* All of it but the normal, which stands there. */
+void map_part_outline(const map_ground *on, const map_part *p, double size, map_outline *o);
 
 /* Whether something stands on the cell or lies on a part of it. */
 bool map_is_walled(const scene *s, const map_outline *o);
@@ -143,11 +180,21 @@ typedef struct map_job {
 
 /* Scratch of a thread. */
 map_tracer *map_tracer_new(arena *a, lux_error *err);
+void map_tracer_free(map_tracer *t); /* NULL: nothing */
 
 /* Follows `count` particles from number `first` on of the set that `seed` names; adds map_marks of
  * pilots, else map_deposits, in an order that depends on nothing else. */
 void map_trace(map_tracer *t, const map_job *job, uint32_t first, int count, uint32_t seed,
                map_list *out, map_balance *balance);
+
+/* Draws anew where the lanes of `active` go on from before a portal, in some cases toward it; the
+ * lanes that go on. *rarer, (0, 1]: by how much less than others a particle carries by that alone.
+ */
+vmask map_aim(const scene *s, const vsurface *at, const vshading *h, const vsample4 *u,
+              vmask active, vmask goes, vscatter *next, vfloat *rarer);
+
+/* What of a particle's flux is in one that is aimed at a portal from there, at most, about. */
+vfloat map_aim_share(const scene *s, const vsurface *at, const vshading *h, vmask active);
 
 /* ---- sensors --------------------------------------------------------------------------------- */
 
@@ -169,8 +216,9 @@ struct illumination_map {
     map_cells cells;
     int slots; /* all light, then each group if the scene is layered */
     int sensors;
-    float *values;  /* W/m^2: of each bin, slot, set, 3 */
-    float *dimming; /* of each group; NAN: its lamps differ */
+    float *values;   /* W/m^2: of each bin, slot, set, 3 */
+    float *smoothed; /* W/m^2: of each node, slot, 3: by how much less its parent has; 0: none */
+    float *dimming;  /* of each group; NAN: its lamps differ */
     map_figures figures;
     uint64_t print[PRINTS];
 };
@@ -183,6 +231,9 @@ static inline size_t map_value_at(const illumination_map *m, size_t bin, int slo
 {
     return ((bin * (size_t)m->slots + (size_t)slot) * SCRAMBLES + (size_t)set) * 3;
 }
+
+/* Fills in m->smoothed, once there are values (map_look.c). */
+bool map_find_smoothing(arena *a, illumination_map *m, lux_error *err);
 
 bool map_prints(const scene *s, const map_options *o, uint64_t print[PRINTS], lux_error *err);
 

@@ -2,7 +2,8 @@
  *
  * Maps cost particles once, however much is then read from them; a path costs its reflections at
  * each sensor and pixel anew. So maps pay where many places ask for light that has been reflected
- * many times, and lies on matt surfaces; a map has no moments, so that series go by paths.
+ * many times, and lies on matt surfaces; a map has no moments, so that series go by paths. What is
+ * outside gives light on into rooms by particles that are aimed at portals, where these are known.
  */
 #include "sim/plan_parts.h"
 
@@ -25,7 +26,7 @@ transport plan_transport(const plan_facts *f, bool interreflection, char *why, s
         snprintf(why, size, "all moments of a series are weighed from the same paths");
     else if (places < least)
         snprintf(why, size, "%.0f %s: maps pay from %.0f on", places, what, least);
-    else if (f->s->exteriors)
+    else if (f->s->exteriors && f->s->portal_count == 0)
         snprintf(why, size, "most particles of daylight would stay outside");
     else if (m->matt_share < mostly)
         snprintf(why, size, "%.0f %% of the surface area is not matt",

@@ -288,6 +288,40 @@ TEST(portals_change_no_light)
                           .portal_count = 0 });
 }
 
+/* Light of the sky and the sun that goes in by a window known of carries alike, and what is said of
+ * the rest is how much more it has; a table's cells are as bright as their middles, within a fifth.
+ */
+TEST(particles_tell_what_more_they_carry_than_windows_let_in)
+{
+    lab l;
+    lab_open(&l);
+    const comparison c = { .portals = (int[]){ 0 }, .portal_count = 1 };
+    const scene s      = with_portals(
+             &l,
+             lab_scene(&l, "lux4: 1\n" WINDOWS "sky: {model: clear, sun_at: {azimuth: 170, elevation:"
+                                " 35}, horizontal: 15000, ground: 0.2, sun: disk, sun_illuminance:"
+                                " 40000}"),
+             &c);
+    const emission *e = lab_emission(&l, &s);
+    double sum = 0.0, square = 0.0, more = 1.0;
+    int count = 0;
+    for (int i = 0; i < EACH; i += LANES) {
+        vparticle p;
+        vmask drawn = emission_draw(e, vunsigned(vlane_index() + i), vsplat_uint(5), ALL_LANES, &p);
+        for (int bits = vbits(drawn); bits; bits &= bits - 1, count++) {
+            int k     = __builtin_ctz((unsigned)bits);
+            double of = (double)lane(vrgb_luminance(p.flux), k) * (double)lane(p.even, k);
+            more      = fmin(more, (double)lane(p.even, k));
+            sum += of;
+            square += of * of;
+        }
+    }
+    double mean = sum / count, spread = sqrt(square / count - mean * mean);
+    assert_true(more < 0.5); /* some carry more */
+    assert_true(spread < 0.2 * mean);
+    lab_close(&l);
+}
+
 /* ---- outside --------------------------------------------------------------------------------- */
 
 static const char black[] =
@@ -463,6 +497,7 @@ int main(void)
         cmocka_unit_test(the_sun_through_a_window_gives_as_if_asked),
         cmocka_unit_test(the_sky_and_the_ground_through_windows_give_as_if_asked),
         cmocka_unit_test(portals_change_no_light),
+        cmocka_unit_test(particles_tell_what_more_they_carry_than_windows_let_in),
         cmocka_unit_test(skies_in_the_open_give_as_if_asked),
         cmocka_unit_test(what_is_outside_a_room_is_lit_as_well),
         cmocka_unit_test(each_source_gives_its_light),

@@ -329,6 +329,7 @@ static bool sample_rest(arena *a, grid_run_state *g, grid_result *r, lux_error *
                         .exact         = g->known,
                         .bound         = g->bound,
                         .fixed         = g->fixed,
+                        .common        = g->maps.indirect || g->maps.focused,
                         .accuracy      = (r->asked - g->o->bound) * (1.0 - room_for_smoothing(g)),
                         .needed        = 1.0,
                         .floor         = FLOOR_MEAN,

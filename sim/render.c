@@ -131,6 +131,7 @@ static bool run(arena *a, arena *scratch, view_run_state *v, view_result *out, l
     accuracy_desc d = { .items    = out->width * out->height,
                         .channels = CHANNELS + before_plain(v) + OF_LAYER * v->layers,
                         .judged   = 1 + before_plain(v),
+                        .common   = v->maps.indirect || v->maps.focused,
                         .accuracy = (out->asked - v->o->bound) * (v->maps.indirect ? 0.9 : 1.0),
                         .needed   = VIEW_NEEDED_PERCENT / 100.0,
                         .floor    = FLOOR_LOG_MEAN,

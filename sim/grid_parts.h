@@ -1,5 +1,5 @@
 /* sim/grid_parts.h -- what the files of grid.h share: grid.c runs a grid, grid_sample.c finds what
- * its sensors get.
+ * its sensors get, grid_results.c what that comes to.
  */
 #ifndef SIM_GRID_PARTS_H
 #define SIM_GRID_PARTS_H
@@ -70,5 +70,17 @@ void grid_sum_chunk(void *context, int item, int thread);
 
 /* Of accuracy_run(); context is a grid_run_state. */
 void grid_sample(void *context, int thread, const sample_id *ids, int count, float *values);
+
+/* Room for results, which g->channels tells of; in a. */
+bool grid_make_results(arena *a, const grid_run_state *g, grid_result *out, lux_error *err);
+
+/* Once: what was sampled (NULL: nothing was) and what was known before. */
+void grid_take_results(const grid_run_state *g, const accuracy_result *got, grid_result *r);
+
+/* Extremes and means, and how many sensors are not as accurate as asked. */
+void grid_summarise(grid_result *r);
+
+/* At a lamp itself illuminance has no bound: false, with *err. */
+bool grid_all_finite(const scene *s, const grid_result *r, lux_error *err);
 
 #endif

@@ -108,7 +108,7 @@ static bool interrupted(const grid_result *r, lux_error *err)
                   r->grid->name);
 }
 
-static bool sample_rest(arena *a, grid_run_state *g, grid_result *r, lux_error *err)
+static bool sample_rest(arena *a, arena *scratch, grid_run_state *g, grid_result *r, lux_error *err)
 {
     accuracy_desc d = { .items         = r->sensor_count,
                         .channels      = g->channels.count,
@@ -131,10 +131,15 @@ static bool sample_rest(arena *a, grid_run_state *g, grid_result *r, lux_error *
                         .sample        = grid_sample,
                         .context       = g };
     accuracy_result got;
-    if (!accuracy_run(a, &d, &got, err))
-        return false;
-    if (!got.complete)
-        return interrupted(r, err);
+    bool finer = false;
+    do {
+        if (!accuracy_run(a, &d, &got, err))
+            return false;
+        if (!got.complete)
+            return interrupted(r, err);
+        if (!grid_refine_maps(g, scratch, &got, &finer, err))
+            return false;
+    } while (finer);
     grid_take_results(g, &got, r);
     r->missed = got.missed;
     if (r->in_doubt && !r->left_to_chance && !g->o->direct_only && anything_shines(g->s))
@@ -158,7 +163,7 @@ static bool run(arena *a, arena *scratch, grid_run_state *g, grid_result *out, l
     bool lit      = scene_is_lit(s);
     bool reflects = s->reflects && lit && !g->o->direct_only;
     if (s->glows || s->sky_count > 0 || g->disks || reflects || atomic_load(&g->lamps_left))
-        return sample_rest(a, g, out, err);
+        return sample_rest(a, scratch, g, out, err);
     grid_take_results(g, NULL, out);
     out->reached = (double)NAN; /* as the bounds say: see grid_summarise() */
     return true;
@@ -182,7 +187,8 @@ bool grid_run(arena *a, const scene *s, const study_grid *grid, const run_option
     arena scratch    = { 0 };
     uint32_t seed    = hash_text_u32(hash_u32(o->seed), grid->name);
     run_options own  = *o;
-    grid_run_state g = { .s       = s,
+    grid_run_state g = { .begun   = begun,
+                         .s       = s,
                          .o       = &own,
                          .r       = out,
                          .layers  = s->layered ? s->group_count : 0,

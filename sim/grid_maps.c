@@ -2,6 +2,8 @@
 #include "core/color.h"
 #include "sim/grid_parts.h"
 
+enum { MOST_REFINED = 1 }; /* times that maps are made anew, of four times the particles */
+
 static const double square_share = 0.25;  /* of the way from sensor to sensor */
 static const float square_side   = 0.05f; /* m, at most: of the squares where focused light is
                                              looked for */
@@ -107,6 +109,42 @@ bool grid_make_maps(grid_run_state *g, arena *a, lux_error *err)
         return false;
     if (g->maps.focused && (!note_fixed(g, a, err) || !grow_focused(g, a, &m, err)))
         return false;
+    for (int t = 0; t < g->o->threads; t++)
+        path_use_maps(g->threads[t].paths, g->maps.indirect, g->maps.focused);
+    return true;
+}
+
+/* ---- finer maps ------------------------------------------------------------------------------ */
+
+/* As long as all has taken so far, five times over. */
+static bool has_time(const grid_run_state *g)
+{
+    double now = clock_seconds();
+    return now + 5.0 * (now - g->begun) < g->o->deadline;
+}
+
+bool grid_refine_maps(grid_run_state *g, arena *a, accuracy_result *got, bool *finer,
+                      lux_error *err)
+{
+    bool own   = g->maps.indirect && !g->o->indirect && !g->o->maps && !g->o->only_samples;
+    bool ended = got->end == RUN_HELD_UP || got->end == RUN_DONE;
+    *finer = own && ended && g->refined < MOST_REFINED && has_time(g) && grid_is_smoothed(g, got);
+    if (!*finer)
+        return true;
+    double accuracy = g->r->asked / (double)(2 << g->refined++);
+    int64_t before  = illumination_map_figures(g->maps.indirect).particles;
+    const illumination_map *map;
+    if (!light_maps_indirect(a, g->s, g->o, accuracy, &map, err)) {
+        bool stopped = err->code == ERR_INTERRUPTED;
+        *finer       = false;
+        got->end     = RUN_INTERRUPTED;
+        *err         = stopped ? (lux_error){ 0 } : *err;
+        return stopped;
+    }
+    map_figures f = illumination_map_figures(map);
+    g->maps.rays += f.rays;
+    g->maps.indirect = map;
+    *finer           = f.particles > before;
     for (int t = 0; t < g->o->threads; t++)
         path_use_maps(g->threads[t].paths, g->maps.indirect, g->maps.focused);
     return true;

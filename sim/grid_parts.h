@@ -43,6 +43,7 @@ typedef struct thread_scratch {
 } thread_scratch;
 
 typedef struct grid_run_state {
+    double begun; /* s, on clock_seconds() */
     const scene *s;
     const run_options *o;
     grid_result *r;
@@ -54,7 +55,8 @@ typedef struct grid_run_state {
     double *sun_known;     /* lx: of each sun, [sun * sensors + sensor]; NAN: samples add nothing */
     double *sun_share;     /* what of it is seen */
     light_maps maps;
-    bool disks; /* some sun is more than a point */
+    int refined; /* times */
+    bool disks;  /* some sun is more than a point */
     grid_channels channels;
     path_options paths;
     atomic_bool lamps_left; /* some lamps take samples */
@@ -63,6 +65,12 @@ typedef struct grid_run_state {
 
 /* Maps of the run, and g->fixed (grid_maps.c). */
 bool grid_make_maps(grid_run_state *g, arena *a, lux_error *err);
+
+/* *finer: the map of interreflected light was made anew, of four times the particles, as it alone
+ * keeps sensors from the accuracy asked for. That is done once at most, where there is time; not
+ * with maps of a file or of other runs. If the user stops it *got is what there is. */
+bool grid_refine_maps(grid_run_state *g, arena *a, accuracy_result *got, bool *finer,
+                      lux_error *err);
 
 /* Of parallel_for(): sensors item * GRID_CHUNK and so on, whose known light is summed. */
 enum { GRID_CHUNK = 64 };
@@ -73,6 +81,9 @@ void grid_sample(void *context, int thread, const sample_id *ids, int count, flo
 
 /* Room for results, which g->channels tells of; in a. */
 bool grid_make_results(arena *a, const grid_run_state *g, grid_result *out, lux_error *err);
+
+/* Whether some sensor is not as accurate as asked, with what maps smooth. */
+bool grid_is_smoothed(const grid_run_state *g, const accuracy_result *got);
 
 /* Once: what was sampled (NULL: nothing was) and what was known before. */
 void grid_take_results(const grid_run_state *g, const accuracy_result *got, grid_result *r);

@@ -195,6 +195,25 @@ static bool found_nothing(const grid_run_state *g, const accuracy_result *got, s
     return nothing;
 }
 
+bool grid_is_smoothed(const grid_run_state *g, const accuracy_result *got)
+{
+    size_t n    = (size_t)g->r->sensor_count;
+    double mean = 0.0;
+    int over    = 0;
+    for (int pass = 0; pass < 2 && g->channels.smoothed >= 0; pass++)
+        for (size_t k = 0; k < n; k++) {
+            double all  = known_of(g, SAMPLED, k) + mean_of(g, got, SAMPLED, k);
+            double half = half_width_of(g, got, SAMPLED, k) +
+                          STEPS_SMOOTHED * fabs(mean_of(g, got, g->channels.smoothed, k));
+            double most = (g->r->asked - g->o->bound) * fmax(all, 0.1 * mean);
+            if (pass == 0)
+                mean += all / (double)n;
+            else
+                over += half > most;
+        }
+    return over > 0;
+}
+
 /* What the plan left out may be that far off, of max(value, a tenth of the average). */
 static void widen(const grid_run_state *g, const double *e, double *half_width)
 {

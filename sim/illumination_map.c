@@ -116,7 +116,7 @@ static bool send_pilots(map_run *r, size_t count, map_list *marks, lux_error *er
  * there unlike each other, by about as much again as they differ among themselves, has the variance
  * 2 (sum w^2 / (sum w)^2) = 2 c / n of its square:
  *
- *     n = 2 c / (accuracy / 3)^2          on pi d^2, hence n A / (pi d^2) in all
+ *     n = 2 c / (accuracy / 2)^2          on pi d^2, hence n A / (pi d^2) in all
  */
 static int64_t particles_for(const map_run *r, const map_growth *g)
 {

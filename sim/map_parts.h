@@ -1,7 +1,7 @@
 /* sim/map_parts.h -- what the files of illumination_map.h share: map_mesh.c puts the triangles of
  * meshes in order, map_cells.c grows trees of cells over them, map_outline.c knows where these lie,
- * map_walls.c sees what stands on them, map_trace.c follows particles, map_aim.c sends them toward
- * portals, map_sensors.c watches them pass, map_look.c answers, map_file.c keeps maps.
+ * map_walls.c sees what stands on them, map_trace.c follows particles, map_portals.c sends them
+ * toward portals, map_sensors.c watches them pass, map_look.c answers, map_file.c keeps maps.
  *
  * A smooth piece of a mesh is a range of its triangles in an order along a space-filling curve. A
  * side of it in one instance is a sheet; each sheet to which particles came has a tree of cells:
@@ -190,11 +190,11 @@ void map_trace(map_tracer *t, const map_job *job, uint32_t first, int count, uin
 /* Draws anew where the lanes of `active` go on from before a portal, in some cases toward it; the
  * lanes that go on. *rarer, (0, 1]: by how much less than others a particle carries by that alone.
  */
-vmask map_aim(const scene *s, const vsurface *at, const vshading *h, const vsample4 *u,
-              vmask active, vmask goes, vscatter *next, vfloat *rarer);
+vmask map_toward_portals(const scene *s, const vsurface *at, const vshading *h, const vsample4 *u,
+                         vmask active, vmask goes, vscatter *next, vfloat *rarer);
 
 /* What of a particle's flux is in one that is aimed at a portal from there, at most, about. */
-vfloat map_aim_share(const scene *s, const vsurface *at, const vshading *h, vmask active);
+vfloat map_portal_share(const scene *s, const vsurface *at, const vshading *h, vmask active);
 
 /* ---- sensors --------------------------------------------------------------------------------- */
 

@@ -86,7 +86,8 @@ static vmask aim(map_tracer *t, int k, vmask active, vmask goes, vscatter *next)
     uint32_t seed  = hash_combine_u32(hash_combine_u32(t->seed, 0xa13d), t->depth);
     vsample4 u     = vsobol4(vunsigned(vload_int(t->index + k * LANES)), vsplat_uint(seed));
     vfloat rarer;
-    goes = map_aim(s, &t->at[k], &t->shading[k], &u, matt_lanes(t, k, active), goes, next, &rarer);
+    goes = map_toward_portals(s, &t->at[k], &t->shading[k], &u, matt_lanes(t, k, active), goes,
+                              next, &rarer);
     vstore(t->carried[FULL] + k * LANES, load(t, FULL, k) * rarer);
     return goes;
 }

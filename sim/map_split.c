@@ -1,9 +1,9 @@
 /* sim/map_split.c -- see map_tracer.h: particles that carry too much, divided.
  *
  * Light that comes from all around is drawn seldom beside what portals let in, and a particle of it
- * carries more. Most of these are aimed (map_aim.c) and then carry as little as others; what lies
- * so close before a window that much of its light comes in has particles divided first, so that
- * what comes in is alike.
+ * carries more. Most of these are aimed (map_portals.c) and then carry as little as others; what
+ * lies so close before a window that much of its light comes in has particles divided first, so
+ * that what comes in is alike.
  */
 #include "sim/map_tracer.h"
 
@@ -38,7 +38,7 @@ static void split(map_tracer *t, int i, int parts)
 void map_split(map_tracer *t, int k, vmask active)
 {
     vfloat flux  = vmax(load(t, FLUX, k), vmax(load(t, FLUX + 1, k), load(t, FLUX + 2, k)));
-    vfloat share = map_aim_share(t->job->s, &t->at[k], &t->shading[k], active);
+    vfloat share = map_portal_share(t->job->s, &t->at[k], &t->shading[k], active);
     vfloat heavy = vkeep(active, flux * share / (too_heavy * load(t, EVEN, k)));
     vmask copies = (vload_int(t->state + k * LANES) & COPY) != 0;
     for (int bits = vbits(active & ~copies & (heavy > 1.0f)); bits; bits &= bits - 1) {

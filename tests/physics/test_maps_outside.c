@@ -1,5 +1,5 @@
 /* tests/physics/test_maps_outside.c -- illumination maps of a room beside a sunlit yard: particles
- * that are aimed at its window and divided before it (map_aim.c, map_split.c).
+ * that are aimed at its window and divided before it (map_portals.c, map_split.c).
  */
 #include "sim/map_parts.h"
 #include "tests/folder.h"

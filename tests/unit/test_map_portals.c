@@ -1,5 +1,6 @@
-/* tests/unit/test_map_aim.c -- particles that are aimed at portals carry what others would: against
- * the light that a matt surface gives on, and what of it goes through, by the midpoint rule.
+/* tests/unit/test_map_portals.c -- particles that are aimed at portals carry what others would:
+ * against the light that a matt surface gives on, and what of it goes through, by the midpoint
+ * rule.
  */
 #include "core/sampler.h"
 #include "sim/map_parts.h"
@@ -89,7 +90,7 @@ static vmask draw(const yard *y, const struct place *at, int first, vscatter *ne
     vsample4 u = vsobol4(index, vsplat_uint(11)), v = vsobol4(index, vsplat_uint(12));
     vmask goes =
         materials_scatter(y->s.materials, vsplat_int(0), &h, u.x, u.y, u.z, ALL_LANES, next);
-    return map_aim(&y->s, &on, &h, &v, ALL_LANES, goes, next, rarer);
+    return map_toward_portals(&y->s, &on, &h, &v, ALL_LANES, goes, next, rarer);
 }
 
 typedef struct found {
@@ -159,7 +160,7 @@ TEST(shares_are_those_of_view_factors)
     for (int i = 0; i < PLACES; i++) {
         vshading h   = shading_of(&places[i]);
         vsurface on  = { .position = vspread(places[i].p), .normal = h.n };
-        double share = (double)lane(map_aim_share(&y.s, &on, &h, ALL_LANES), 0);
+        double share = (double)lane(map_portal_share(&y.s, &on, &h, ALL_LANES), 0);
         double want  = 0.6 * seen_from(&places[i]) / 0.25;
         assert_true(share > 0.5 * want && share < 3.0 * want);
     }

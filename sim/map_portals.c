@@ -1,4 +1,4 @@
-/* sim/map_aim.c -- see map_parts.h: particles outside that are sent on toward portals.
+/* sim/map_portals.c -- see map_parts.h: particles outside that are sent on toward portals.
  *
  * Of the light that surfaces outside give on a hundredth or less comes in by a window; drawn as
  * they reflect alone, a room gets few of their particles, each of which carries a lot. So where a
@@ -88,8 +88,8 @@ static vfloat density(const scene *s, const vvec3 *p, const vvec3 *n, const vvec
     return vkeep(sum > 0.0f, of / sum);
 }
 
-vmask map_aim(const scene *s, const vsurface *at, const vshading *h, const vsample4 *u,
-              vmask active, vmask goes, vscatter *next, vfloat *rarer)
+vmask map_toward_portals(const scene *s, const vsurface *at, const vshading *h, const vsample4 *u,
+                         vmask active, vmask goes, vscatter *next, vfloat *rarer)
 {
     const vvec3 *p = &at->position, *n = &h->n;
     vfloat sum   = sum_of_chances(s, p, n);
@@ -121,7 +121,7 @@ vmask map_aim(const scene *s, const vsurface *at, const vshading *h, const vsamp
     return goes & ~(drawn & ~(p_f > 0.0f));
 }
 
-vfloat map_aim_share(const scene *s, const vsurface *at, const vshading *h, vmask active)
+vfloat map_portal_share(const scene *s, const vsurface *at, const vshading *h, vmask active)
 {
     vfloat sum  = sum_of_chances(s, &at->position, &h->n);
     vrgb albedo = materials_albedo(s->materials, at->material, h, active & (sum > 0.0f));

@@ -95,7 +95,7 @@ static void print_omission(const char *begin, const char *whose, double share, d
 {
     if (lumens > 0.0)
         printf("%s: about %.*f lm of %s, %.2g %% of their light, that round mirrors or "
-               "solids of glass focus: too little to look for at this accuracy\n",
+               "solids of glass focus: too little to look for\n",
                begin, lumens < 10.0 ? 2 : 0, lumens, whose, 100.0 * share);
 }
 

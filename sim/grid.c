@@ -75,7 +75,7 @@ static grid_channels lay_out(const grid_run_state *g)
     c.straight_count = g->moments ? g->moments : 1 + g->layers;
     c.met            = c.straight + c.straight_count;
     c.count          = c.met + 1;
-    if (g->o->transport == TRANSPORT_MAPS || scene_focuses(g->s, g->r->asked))
+    if (g->o->transport == TRANSPORT_MAPS || scene_focuses(g->s))
         c.smoothed = c.count++;
     if (g->o->outside)
         c.outside = c.count++;
@@ -94,7 +94,10 @@ static bool anything_shines(const scene *s)
 }
 
 /* The share of the accuracy that is left for what maps smooth. */
-static double room_for_smoothing(const grid_run_state *g) { return g->maps.indirect ? 0.15 : 0.0; }
+static double room_for_smoothing(const grid_run_state *g)
+{
+    return g->maps.indirect || g->maps.focused ? 0.15 : 0.0;
+}
 
 /* A scramble; more where some light comes by way of what is nearly a mirror: it is met rarely. */
 static int first_samples(const scene *s)
@@ -209,7 +212,7 @@ bool grid_run(arena *a, const scene *s, const study_grid *grid, const run_option
                           : !isnan(s->study->accuracy) ? s->study->accuracy
                                                        : GRID_DEFAULT_PERCENT / 100.0;
     out->left_to_chance = scene_left_to_chance(s, o->direct_only);
-    out->unfocused      = scene_left_unfocused(s, out->asked, o->direct_only);
+    out->unfocused      = scene_left_unfocused(s, o->direct_only);
     g.channels          = lay_out(&g);
     good = good && grid_make_results(a, &g, out, err) && make_known(&scratch, &g, err) &&
            make_threads(&g, &scratch, err) && run(a, &scratch, &g, out, err) &&

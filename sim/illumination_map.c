@@ -4,7 +4,7 @@
  * chunks, and each chunk its own list of deposits. Lists are added up set by set in the order of
  * chunks, so that sums do not depend on who traced what.
  */
-#include "sim/map_parts.h"
+#include "sim/map_aim.h"
 
 #include "core/color.h"
 #include "core/parallel.h"
@@ -179,8 +179,18 @@ static void add_set(void *context, int set, int thread)
     }
 }
 
+/* m^2. */
+static double bin_area(const map_run *r, size_t bin)
+{
+    size_t nodes = (size_t)r->m->cells.node_count;
+    if (bin < nodes)
+        return r->m->cells.nodes[bin].area;
+    double side = (double)map_sensor_side(r->o->sensors, (int)((bin - nodes) / 2));
+    return (bin - nodes) % 2 ? 2.0 * side * side : side * side;
+}
+
 /* Parents by summing, then W/m^2. */
-static void make_values(map_run *r, double side)
+static void make_values(map_run *r)
 {
     illumination_map *m = r->m;
     size_t one          = (size_t)m->slots * SCRAMBLES * 3;
@@ -190,11 +200,8 @@ static void make_values(map_run *r, double side)
         for (size_t i = 0; parent >= 0 && i < one; i++)
             r->sums[(size_t)parent * one + i] += r->sums[(size_t)n * one + i];
     }
-    size_t nodes = (size_t)m->cells.node_count;
     for (size_t bin = 0; bin < map_bins(m); bin++) {
-        double area = bin < nodes ? m->cells.nodes[bin].area : side * side;
-        if (bin >= nodes && (bin - nodes) % 2 == 1)
-            area *= 2.0;
+        double area  = bin_area(r, bin);
         double scale = area > 0.0 ? 1.0 / (area * each) : 0.0;
         for (size_t i = 0; i < one; i++)
             m->values[bin * one + i] = (float)(scale * r->sums[bin * one + i]);
@@ -246,6 +253,18 @@ bool map_dimmings(arena *a, const scene *s, float **out, lux_error *err)
     return true;
 }
 
+/* What particles set out by. */
+static bool find_light(arena *a, map_run *r, lux_error *err)
+{
+    const map_options *o = r->o;
+    illumination_map *m  = r->m;
+    if (m->kind == MAP_INDIRECT)
+        return (r->job.light = emission_new(a, m->s, err)) != NULL;
+    aim_desc d = { m->s,      o->seed,    o->threads, o->particles,
+                   &m->cells, r->tracers, o->sensors, stop_of(o) };
+    return (r->job.aim = map_aim_new(a, &d, err)) != NULL;
+}
+
 static bool prepare(arena *a, arena *scratch, map_run *r, lux_error *err)
 {
     const map_options *o = r->o;
@@ -253,14 +272,14 @@ static bool prepare(arena *a, arena *scratch, map_run *r, lux_error *err)
     r->pilot_seed        = hash_combine_u32(o->seed, 0x9170);
     for (uint32_t i = 0; i < SCRAMBLES; i++)
         r->seeds[i] = hash_combine_u32(hash_combine_u32(o->seed, 0x3a95), i);
-    r->job     = (map_job){ .s = m->s, .light = emission_new(scratch, m->s, err), .kind = m->kind };
+    r->job     = (map_job){ .s = m->s, .kind = m->kind };
     r->tracers = arena_array(scratch, map_tracer *, (size_t)o->threads, err);
-    if (!r->job.light || !r->tracers || !map_meshes_new(a, m->s, &m->cells, err))
+    if (!r->tracers || !map_meshes_new(a, m->s, &m->cells, err))
         return false;
     for (int i = 0; i < o->threads; i++)
         if (!(r->tracers[i] = map_tracer_new(scratch, err)))
             return false;
-    return map_dimmings(a, m->s, &m->dimming, err);
+    return map_dimmings(a, m->s, &m->dimming, err) && find_light(scratch, r, err);
 }
 
 /* Cells, and how many chunks a set is to have. */
@@ -307,11 +326,12 @@ static bool make_map(arena *a, arena *scratch, map_run *r, map_list *marks, lux_
         return false;
     r->job.cells            = &m->cells;
     r->job.first_sensor_bin = m->cells.node_count;
-    if (m->sensors > 0 && !(r->job.watch = map_watch_new(scratch, s, err)))
+    if (m->sensors > 0 &&
+        !(r->job.watch = map_watch_new(scratch, s, (map_widths){ .times = 1.0f }, err)))
         return false;
     if (!send_particles(r, chunks, err))
         return false;
-    make_values(r, s ? (double)s->side : 0.0);
+    make_values(r);
     return map_find_smoothing(a, m, err);
 }
 
@@ -329,15 +349,16 @@ static void note_figures(map_run *r, double begun)
                      m->cells.sheet_room * sizeof(map_sheet);
     for (uint32_t i = 0; i < m->cells.mesh_count; i++)
         bytes += (size_t)m->cells.meshes[i].count * (3 * sizeof(int32_t) + sizeof(uint64_t));
-    m->figures = (map_figures){ .particles = (int64_t)particles,
-                                .rays      = r->all.rays,
-                                .cells     = m->cells.node_count,
-                                .bytes     = (int64_t)bytes,
-                                .seconds   = clock_seconds() - begun,
-                                .emitted   = watts(r->all.emitted, particles),
-                                .absorbed  = watts(r->all.absorbed, particles),
-                                .escaped   = watts(r->all.escaped, particles),
-                                .unplaced  = watts(r->all.unplaced, particles) };
+    m->figures         = (map_figures){ .particles = (int64_t)particles,
+                                        .rays      = r->all.rays,
+                                        .cells     = m->cells.node_count,
+                                        .bytes     = (int64_t)bytes,
+                                        .seconds   = clock_seconds() - begun,
+                                        .emitted   = watts(r->all.emitted, particles),
+                                        .absorbed  = watts(r->all.absorbed, particles),
+                                        .escaped   = watts(r->all.escaped, particles),
+                                        .unplaced  = watts(r->all.unplaced, particles) };
+    m->figures.sources = r->job.aim ? map_aim_flux(r->job.aim) : m->figures.emitted;
 }
 
 const illumination_map *illumination_map_new(arena *a, const scene *s, const map_options *o,

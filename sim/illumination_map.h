@@ -31,9 +31,16 @@ typedef enum map_light {
 typedef struct map_sensors {
     int count;
     const vec3 *at, *normal; /* m, in the scene's frame; unit */
-    float side;              /* m, of the squares */
+    float side;              /* m, of the squares, */
     study_quantity quantity; /* that they measure */
+    const float *sides;      /* m, or of each sensor's, none larger; NULL */
+    const float *allowed;    /* lx, of each: how far off it may be, about; NULL: all the same */
 } map_sensors;
+
+static inline float map_sensor_side(const map_sensors *m, int sensor)
+{
+    return m->sides ? m->sides[sensor] : m->side;
+}
 
 typedef struct map_options {
     map_light light;
@@ -72,7 +79,9 @@ typedef struct map_figures {
     int64_t particles, rays;
     int64_t cells, bytes;
     double seconds;
-    vec3 emitted, absorbed, escaped; /* W: what became of the light of the particles */
+    vec3 sources;                    /* W: all light of what particles set out from */
+    vec3 emitted, absorbed, escaped; /* W: what became of that of the particles; aimed ones
+                                        (MAP_FOCUSED) that miss are absorbed */
     vec3 dropped;                    /* W, of particles that were given up: 0 but for no memory */
     vec3 unplaced; /* W, of the light that is deposited: where no cell has a value */
 } map_figures;

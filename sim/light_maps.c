@@ -62,7 +62,7 @@ bool light_maps_focused(arena *a, const scene *s, const run_options *o, double a
         return false;
     map_figures f    = illumination_map_figures(out->focused);
     out->left_out_lm = 0.0;
-    leave_out(out, luminance_of(f.unplaced), luminance_of(f.emitted));
+    leave_out(out, luminance_of(f.unplaced), luminance_of(f.sources));
     out->rays += f.rays;
     return true;
 }
@@ -73,7 +73,7 @@ bool light_maps_make(arena *a, const scene *s, const run_options *o, double accu
     *out = (light_maps){ 0 };
     if (o->direct_only || !s->reflects)
         return true;
-    if (scene_focuses(s, accuracy) && !light_maps_focused(a, s, o, accuracy, sensors, 0, out, err))
+    if (scene_focuses(s) && !light_maps_focused(a, s, o, accuracy, sensors, 0, out, err))
         return false;
     if (o->transport != TRANSPORT_MAPS || o->bounded)
         return true;

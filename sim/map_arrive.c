@@ -23,15 +23,26 @@ static void note_way(map_tracer *t, int i)
     t->balance->ways++;
 }
 
+static void deposit(map_tracer *t, int i, int32_t bin, int32_t group, vec3 flux)
+{
+    map_deposit *to = map_list_add(t->out);
+    if (to)
+        *to = (map_deposit){ bin, group, t->carried[DIMMING][i], flux };
+}
+
 static void lay_down(map_tracer *t, int i, int32_t front, vec3 flux)
 {
     const map_job *job = t->job;
-    map_mark mark      = { .instance = t->instance[i],
-                           .triangle = t->triangle[i],
-                           .front    = front,
-                           .u        = t->u[i],
-                           .v        = t->v[i],
-                           .weight   = rgb_luminance(flux) };
+    if (job->learns) {
+        deposit(t, i, -1, t->aim_cell[i], flux);
+        return;
+    }
+    map_mark mark = { .instance = t->instance[i],
+                      .triangle = t->triangle[i],
+                      .front    = front,
+                      .u        = t->u[i],
+                      .v        = t->v[i],
+                      .weight   = rgb_luminance(flux) };
     if (!job->cells) {
         map_mark *to = map_list_add(t->out);
         if (to)
@@ -46,9 +57,7 @@ static void lay_down(map_tracer *t, int i, int32_t front, vec3 flux)
             t->balance->unplaced[c] += (double)missed[c];
         return;
     }
-    map_deposit *to = map_list_add(t->out);
-    if (to)
-        *to = (map_deposit){ bin, t->group[i], t->carried[DIMMING][i], flux };
+    deposit(t, i, bin, t->group[i], flux);
 }
 
 vmask map_arrive(map_tracer *t, int k)

@@ -1,7 +1,8 @@
 /* sim/map_parts.h -- what the files of illumination_map.h share: map_mesh.c puts the triangles of
  * meshes in order, map_cells.c grows trees of cells over them, map_outline.c knows where these lie,
- * map_walls.c sees what stands on them, map_trace.c follows particles, map_portals.c sends them
- * toward portals, map_sensors.c watches them pass, map_look.c answers, map_file.c keeps maps.
+ * map_walls.c sees what stands on them, map_aim*.c aims particles of focused light, map_trace.c
+ * follows all, map_portals.c sends them toward portals, map_sensors.c watches them pass, map_look.c
+ * answers, map_file.c keeps maps.
  *
  * A smooth piece of a mesh is a range of its triangles in an order along a space-filling curve. A
  * side of it in one instance is a sheet; each sheet to which particles came has a tree of cells:
@@ -167,6 +168,7 @@ typedef struct map_balance {
 } map_balance;
 
 typedef struct map_watch map_watch; /* sensors in the air */
+typedef struct map_aim map_aim;     /* map_aim.h */
 
 typedef struct map_tracer map_tracer;
 typedef struct map_job {
@@ -174,6 +176,9 @@ typedef struct map_job {
     const emission *light;
     const map_cells *cells; /* NULL: pilots */
     const map_watch *watch; /* NULL */
+    const map_aim *aim;     /* MAP_FOCUSED */
+    uint32_t learns; /* not 0: deposits are to have the aim's cell for their group, and bin -1 where
+                        they lie on surfaces */
     map_light kind;
     int32_t first_sensor_bin;
 } map_job;
@@ -198,7 +203,11 @@ vfloat map_portal_share(const scene *s, const vsurface *at, const vshading *h, v
 
 /* ---- sensors --------------------------------------------------------------------------------- */
 
-const map_watch *map_watch_new(arena *a, const map_sensors *m, lux_error *err);
+/* Squares are so many times as wide as the sensors say, and at least so many times their `side`. */
+typedef struct map_widths {
+    float times, least;
+} map_widths;
+const map_watch *map_watch_new(arena *a, const map_sensors *m, map_widths w, lux_error *err);
 
 /* Adds deposits of particles that go from `from` along `way` as far as `reach`. */
 void map_watch_pass(const map_watch *w, const vray *ray, vmask active, const vrgb *flux, vint group,

@@ -92,6 +92,22 @@ static vmask aim(map_tracer *t, int k, vmask active, vmask goes, vscatter *next)
     return goes;
 }
 
+/* The lanes that go on, as they turn first where they are aimed at. */
+static vmask as_aimed(map_tracer *t, int k, vmask goes, vmask straight)
+{
+    int i       = k * LANES;
+    vint state  = vload_int(t->state + i);
+    vfloat gone = vload(t->distance + i), aimed = load(t, AIMED, k);
+    vmask to     = (state & TO_TURN) != 0;
+    vmask piece  = vload_int(t->instance + i) == vload_int(t->aim_instance + i);
+    vmask same   = vload_int(t->triangle + i) == vload_int(t->aim_triangle + i);
+    vfloat close = map_aim_tolerance(t->job->aim, gone);
+    vmask here   = piece & (same | (vabs(gone - aimed) <= close)); /* or across an edge */
+    vstore(t->carried[AIMED] + i, aimed - gone);
+    vstore_int(t->state + i, vselect_int(straight, state, state & ~TO_TURN));
+    return goes & (~to | (straight & ~here) | (~straight & here));
+}
+
 /* Draws where particles go on, or that they end. */
 static vmask draw(map_tracer *t, int k, vmask active, vscatter *next)
 {
@@ -117,6 +133,8 @@ static vmask draw(map_tracer *t, int k, vmask active, vscatter *next)
     }
     if (t->job->kind == MAP_FOCUSED)
         goes = goes & (next->straight | (next->pdf == INFINITY));
+    if (t->job->aim)
+        goes = as_aimed(t, k, goes, next->straight);
 
     /* Roulette: it goes on as often as it is worth going. Straight on it ends by itself. */
     vrgb flux       = vmul(load3(t, FLUX, k), next->weight);

@@ -35,12 +35,13 @@ static vec3 lifted(const map_sensors *m, uint32_t sensor)
     vec3 p = m->at[sensor];
     if (squares_each(m) > 1)
         return p;
-    float off = 1e-3f * m->side + 0x1p-17f * fmaxf(fabsf(p.x), fmaxf(fabsf(p.y), fabsf(p.z)));
-    vec3 n    = v3_scale(m->normal[sensor], off);
+    float off = 1e-3f * map_sensor_side(m, (int)sensor) +
+                0x1p-17f * fmaxf(fabsf(p.x), fmaxf(fabsf(p.y), fabsf(p.z)));
+    vec3 n = v3_scale(m->normal[sensor], off);
     return (vec3){ p.x + n.x, p.y + n.y, p.z + n.z };
 }
 
-const map_watch *map_watch_new(arena *a, const map_sensors *m, lux_error *err)
+const map_watch *map_watch_new(arena *a, const map_sensors *m, map_widths wide, lux_error *err)
 {
     uint32_t each     = squares_each(m);
     size_t n          = each * (size_t)m->count;
@@ -48,11 +49,12 @@ const map_watch *map_watch_new(arena *a, const map_sensors *m, lux_error *err)
     arena scratch     = { 0 };
     vec3 *places      = w ? arena_array(&scratch, vec3, 4 * n, err) : NULL;
     uint32_t *corners = places ? arena_array(&scratch, uint32_t, 6 * n, err) : NULL;
-    float half        = 0.5f * m->side * sqrtf(2.0f);
     for (uint32_t i = 0; corners && i < n; i++) {
         static const uint32_t around[6] = { 0, 1, 2, 0, 2, 3 };
         vec3 u, v, p = lifted(m, i / each), normal = facing(m, i);
         v3_frame(normal, &u, &v);
+        float side = fmaxf(wide.times * map_sensor_side(m, (int)(i / each)), wide.least * m->side);
+        float half = 0.5f * side * sqrtf(2.0f);
         for (uint32_t c = 0; c < 4; c++) {
             float s = c == 1 || c == 2 ? half : -half, t = c >= 2 ? half : -half;
             places[4 * i + c] =

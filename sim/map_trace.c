@@ -52,6 +52,11 @@ int map_keep(map_tracer *t, int k, vmask goes, int kept)
         t->spare[kept] = t->spare[from];
         t->state[kept] = t->state[from];
         t->image[kept] = t->image[from];
+        if (t->job->aim) {
+            t->aim_instance[kept] = t->aim_instance[from];
+            t->aim_triangle[kept] = t->aim_triangle[from];
+            t->aim_cell[kept]     = t->aim_cell[from];
+        }
         for (int f = 0; f < FIELDS; f++)
             t->carried[f][kept] = t->carried[f][from];
     }
@@ -89,7 +94,20 @@ static void set_out(map_tracer *t, int k, const vparticle *p)
     vstore_int(t->group + i, p->group);
     vstore_int(t->spare + i, p->spare);
     vstore_int(t->image + i, vselect_int(p->source < 0, vsplat_int(-1), vsplat_int(0)));
-    vstore_int(t->state + i, vsplat_int(0));
+    vstore_int(t->state + i, vsplat_int(t->job->aim ? TO_TURN : 0));
+}
+
+/* Of light that comes from lamps and suns: what shines else, rays that meet glass find. */
+static vmask draw_aimed(map_tracer *t, int k, vuint index, vmask active, vparticle *p)
+{
+    vaimed to;
+    vmask drawn = map_aim_draw(t->job->aim, index, vsplat_uint(t->seed), active, p, &to);
+    p->even     = vsplat(1.0f);
+    vstore(t->carried[AIMED] + k * LANES, to.distance);
+    vstore_int(t->aim_instance + k * LANES, to.instance);
+    vstore_int(t->aim_triangle + k * LANES, to.triangle);
+    vstore_int(t->aim_cell + k * LANES, to.cell);
+    return drawn;
 }
 
 static void begin(map_tracer *t, uint32_t first, int count)
@@ -99,10 +117,10 @@ static void begin(map_tracer *t, uint32_t first, int count)
         vuint index  = vunsigned(vlane_index() + k * LANES) + first;
         vmask active = (vlane_index() + k * LANES) < count;
         vparticle p;
-        vmask drawn = emission_draw(t->job->light, index, vsplat_uint(t->seed), active, &p);
-        if (t->job->kind == MAP_FOCUSED) /* what shines else, rays that meet glass find */
-            drawn = drawn & (p.source >= 0) & (p.source < t->job->s->light_count);
-        p.flux = vscale(p.flux, maintained(t->job->s, p.source, drawn));
+        vmask drawn = t->job->aim
+                          ? draw_aimed(t, k, index, active, &p)
+                          : emission_draw(t->job->light, index, vsplat_uint(t->seed), active, &p);
+        p.flux      = vscale(p.flux, maintained(t->job->s, p.source, drawn));
         vstore_int(t->index + k * LANES, vsigned(index));
         set_out(t, k, &p);
         for (int bits = vbits(drawn); bits; bits &= bits - 1) {
@@ -122,10 +140,11 @@ static void watch(map_tracer *t, int k)
     vmask passes = t->active[k] & map_counts(t, k);
     if (!vany(passes))
         return;
-    vray ray  = t->rays[k];
-    ray.reach = t->hits[k].distance;
-    vrgb flux = load3(t, FLUX, k);
-    map_watch_pass(t->job->watch, &ray, passes, &flux, vload_int(t->group + k * LANES),
+    vray ray             = t->rays[k];
+    ray.reach            = t->hits[k].distance;
+    vrgb flux            = load3(t, FLUX, k);
+    const int32_t *group = t->job->learns ? t->aim_cell : t->group;
+    map_watch_pass(t->job->watch, &ray, passes, &flux, vload_int(group + k * LANES),
                    load(t, DIMMING, k), t->job->first_sensor_bin, t->out);
 }
 

@@ -4,18 +4,19 @@
 #ifndef SIM_MAP_TRACER_H
 #define SIM_MAP_TRACER_H
 
-#include "sim/map_parts.h"
+#include "sim/map_aim.h"
 
 enum { MAP_PACKETS = MAP_BATCH / LANES };
 
 /* What a living particle carries; vectors are three fields. */
 enum {
-    PLACE   = 0,         /* m: where its ray begins */
-    WAY     = PLACE + 3, /* unit: the ray's direction */
-    FLUX    = WAY + 3,   /* W */
-    FULL    = FLUX + 3,  /* W: the largest channel of what it set out with */
-    EVEN    = FULL + 1,  /* W: the same of those that portals let in */
-    DIMMING = EVEN + 1,  /* of its source */
+    PLACE   = 0,           /* m: where its ray begins */
+    WAY     = PLACE + 3,   /* unit: the ray's direction */
+    FLUX    = WAY + 3,     /* W */
+    FULL    = FLUX + 3,    /* W: the largest channel of what it set out with */
+    EVEN    = FULL + 1,    /* W: the same of those that portals let in */
+    DIMMING = EVEN + 1,    /* of its source */
+    AIMED   = DIMMING + 1, /* m: how far it is from where it is to turn first (map_aim.h) */
     FIELDS
 };
 
@@ -27,6 +28,7 @@ enum {
     FROM_MATT = 8,  /* the last was such a one */
     LOST      = 16, /* within a plate of glass it was reflected: paths leave that out, too */
     COPY      = 32, /* where it stands, another has left the light */
+    TO_TURN   = 64, /* it has not come to where it is aimed at */
 };
 
 /* A particle with what it has come to. */
@@ -45,6 +47,7 @@ struct map_tracer {
 
     int32_t image[MAP_BATCH]; /* mirrors since it set out (mirrors.h); -1: it is no image */
     int32_t index[MAP_BATCH], group[MAP_BATCH], spare[MAP_BATCH], state[MAP_BATCH];
+    int32_t aim_instance[MAP_BATCH], aim_triangle[MAP_BATCH], aim_cell[MAP_BATCH];
     float carried[FIELDS][MAP_BATCH];
 
     /* What they have met */

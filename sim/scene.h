@@ -189,16 +189,15 @@ typedef struct scene {
     int small_patches; /* lamps that light a patch too small for samples to find reliably */
 } scene;
 
-/* Whether so much light is focused that it matters to results of that accuracy: then they want a
- * map of it. */
-bool scene_focuses(const scene *s, double accuracy);
+/* Whether so much light is focused that it matters: then results want a map of it. */
+bool scene_focuses(const scene *s);
 
-/* Focused light that a run of that accuracy does not look for, as too little: shares as in
+/* Focused light that runs do not look for, as too little: shares as in
  * scene_ways, and lm. All 0: there is none, or there is a map of it. */
 typedef struct scene_omission {
     double lamps, suns, lamps_lm, suns_lm;
 } scene_omission;
-scene_omission scene_left_unfocused(const scene *s, double accuracy, bool direct_only);
+scene_omission scene_left_unfocused(const scene *s, bool direct_only);
 
 /* The light that samples may miss without an interval telling, in words; NULL if there is none. */
 const char *scene_left_to_chance(const scene *s, bool direct_only);

@@ -227,15 +227,15 @@ bool scene_find_ways(scene *s, notices *n, lux_error *err)
     return fates != NULL;
 }
 
-bool scene_focuses(const scene *s, double accuracy)
+/* However rough results may be: a little of all light is much where it comes together. */
+bool scene_focuses(const scene *s)
 {
-    double least = fmax(SHARE_THAT_MATTERS, 0.1 * accuracy);
-    return s->by_lamps.focused > least || s->by_suns.focused > least;
+    return fmax(s->by_lamps.focused, s->by_suns.focused) > SHARE_THAT_MATTERS;
 }
 
-scene_omission scene_left_unfocused(const scene *s, double accuracy, bool direct_only)
+scene_omission scene_left_unfocused(const scene *s, bool direct_only)
 {
-    if (direct_only || !s->reflects || scene_focuses(s, accuracy))
+    if (direct_only || !s->reflects || scene_focuses(s))
         return (scene_omission){ 0 };
     return (scene_omission){ .lamps    = s->by_lamps.focused,
                              .suns     = s->by_suns.focused,

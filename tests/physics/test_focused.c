@@ -48,7 +48,7 @@ static void lumens_in_squares(lab *l, const scene *s, const lab_probe *p, int co
     map_options o             = { .light     = MAP_FOCUSED,
                                   .seed      = 1,
                                   .threads   = 2,
-                                  .particles = 1 << 19,
+                                  .particles = 1 << 18,
                                   .accuracy  = 0.01,
                                   .deadline  = HUGE_VAL,
                                   .sensors   = &squares };
@@ -90,8 +90,9 @@ static void write_beam(lab *l)
     lab_sphere(l, "ball.gltf", (dvec3){ 0, 0, 2 }, radius, 180, glass);
 }
 
-/* 0.5 %: pieces are 1 degree wide. Squares are before and behind the focus, 0.75 m below the
- * centre, and just above the floor. */
+/* 0.8 %: within solids light is taken as unpolarised at each border, which makes 0.3 % here, at 1
+ * and at half a degree a piece; the rest are three sigmas. Squares are before and behind the focus,
+ * 0.75 m below the centre, and just above the floor. */
 TEST(a_ball_of_glass_focuses_a_beam_onto_squares_below)
 {
     lab l;
@@ -105,13 +106,27 @@ TEST(a_ball_of_glass_focuses_a_beam_onto_squares_below)
     lumens_in_squares(&l, s, p, 3, 0.6, QUANTITY_PLANAR, lm);
     for (int i = 0; i < 3; i++) {
         double d = 2.0 - p[i].at.z;
-        assert_near(lm[i], in_square(ball_on_disk, &d, 0.6), 0.005);
+        assert_near(lm[i], in_square(ball_on_disk, &d, 0.6), 0.008);
     }
     lab_close(&l);
 }
 
-/* In the ball's shadow there is focused light alone, of its class, and with its interval. The mean
- * over a square of sensors whose squares leave no gap is the light of all. */
+/* lx: of sensors below the ball, each as a ring as wide as its square. */
+static double mean_below(const grid_result *r, double distance)
+{
+    const double half = 0.0125;
+    double sum        = 0.0;
+    for (int k = 0; k < r->sensor_count; k++) {
+        double away = hypot(r->sensors[k].at.x, r->sensors[k].at.y);
+        double lm   = ball_on_disk(&distance, away + half) - ball_on_disk(&distance, away - half);
+        sum += lm / (4.0 * M_PI * away * half);
+    }
+    return sum / r->sensor_count;
+}
+
+/* In the ball's shadow there is focused light alone, of its class, and with its interval. So rough
+ * results go by squares that are wider than what facets of glass send through them: 1 % of its
+ * sum. */
 TEST(a_grid_below_a_ball_of_glass_tells_focused_light)
 {
     lab l;
@@ -124,16 +139,14 @@ TEST(a_grid_below_a_ball_of_glass_tells_focused_light)
     double d = 1.7, want = in_square(ball_on_disk, &d, 0.6) / 0.36;
     for (int t = 0; t < TRANSPORTS; t++) {
         grid_result r;
-        grid_of_scene(
-            &l.a, s, 0,
-            &(run_options){ .accuracy = 0.15, .seed = 1, .threads = 2, .transport = transports[t] },
-            &r);
+        grid_of_scene(&l.a, s, 0,
+                      &(run_options){ .accuracy = 0.3, .seed = 1, .transport = transports[t] }, &r);
         for (int k = 0; k < r.sensor_count; k++)
             assert_true(r.direct[k] == 0.0);
         assert_near(r.classes[CLASS_FOCUSED].average, r.average, 1e-5);
         double half = r.classes[CLASS_FOCUSED].half_width;
         assert_true(half > 0.0 && half < 0.1 * want);
-        assert_true(fabs(r.average - want) <= 2.0 * half);
+        assert_true(fabs(r.average - mean_below(&r, d)) <= 2.0 * half + 0.01 * want);
         assert_null(r.left_to_chance);
     }
     lab_close(&l);
@@ -215,7 +228,7 @@ static double mirror_on_disk(const void *context, double r)
 /* Rings of a sphere of radius 1 about the origin. */
 static void write_cap(lab *l, double from, double to)
 {
-    enum { ROUND = 240, RINGS = 120 };
+    enum { ROUND = 480, RINGS = 240 }; /* of half as many, 1.1 % too much comes to the square */
     quad *q = arena_array(&l->a, quad, ROUND * RINGS, NULL);
     assert_non_null(q);
     for (int i = 0; i < ROUND * RINGS; i++) {
@@ -259,6 +272,36 @@ TEST(a_concave_mirror_gathers_a_lamp)
         &(round_mirror){ .lamp = -0.4, .at = 0.8, .from = M_PI - 0.7, .to = M_PI - 1e-3 }, 0.5);
 }
 
+/* ---- aimed by way of others ------------------------------------------------------------------ */
+
+static double behind_block(lab *l, const char *lamp, bool mirror)
+{
+    quad block[6], wall = { { { 2, -3, 0 }, { 2, -3, 4 }, { 2, 3, 4 }, { 2, 3, 0 } } };
+    quads_of_box((dvec3){ -0.5, -0.4, 0.5 }, (dvec3){ 0.5, 0.4, 1 }, block);
+    lab_quads(l, "block.gltf", block, 6, glass);
+    lab_quads(l, "wall.gltf", &wall, 1, "\"name\":\"Wall\"");
+    const scene *s = lab_scene(
+        l, text_of(&l->a,
+                   "lux4: 1\nscene: [block.gltf%s\n"
+                   "lights: [{type: cone, %s, intensity: 1000, inner: 20, outer: 25}]\n",
+                   mirror ? ", wall.gltf]\nmaterials: [{match: Wall, mirror: 0.8}]" : "]", lamp));
+    const lab_probe p = { { -1, 0, 0.2 }, { 0, 0, 1 } };
+    double lm;
+    lumens_in_squares(l, s, &p, 1, 2.0, QUANTITY_PLANAR, &lm);
+    return lm;
+}
+
+/* Particles turn at the mirror first. 1 %: three sigmas. */
+TEST(a_lamp_is_focused_from_its_mirror_image)
+{
+    lab l;
+    lab_open(&l);
+    double plain = behind_block(&l, "at: [4, 0, 3], aim: [-4, 0, -2.2]", false);
+    assert_true(plain > 10.0);
+    assert_near(behind_block(&l, "at: [0, 0, 3], aim: [4, 0, -2.2]", true), 0.8 * plain, 0.01);
+    lab_close(&l);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -267,6 +310,7 @@ int main(void)
         cmocka_unit_test(cylinders_in_focused_light_have_what_its_direction_says),
         cmocka_unit_test(a_convex_mirror_spreads_a_lamp),
         cmocka_unit_test(a_concave_mirror_gathers_a_lamp),
+        cmocka_unit_test(a_lamp_is_focused_from_its_mirror_image),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -81,19 +81,25 @@ TEST(focused_light_is_told_in_lumens)
     assert_true(s->by_suns.focused_lm == 0.0);
 }
 
-/* From 2.3 m the ball focuses 1.2 %: at 10 % a map is made of it, at 15 % it is left out. */
+/* From 2.3 m the ball focuses 1.2 % of one lamp; of two, of which one is nine times as strong and
+ * shines away from it, 0.12 %. */
+#define FAR_LAMP "{type: point, at: [0.2, 1.5, 1.5], lumens: 1000}"
+#define AWAY_LAMP                                                                                  \
+    "{type: cone, at: [1, 1.5, 1.5], aim: [-1, 0, 0], lumens: 9000, inner: 10, outer: 20}"
 TEST(light_that_is_not_worth_a_map_is_left_out_and_told)
 {
     const double share = 0.5 * (1.0 - sqrt(1.0 - 0.25 / (2.3 * 2.3)));
-    const scene *s =
-        with_ball(glass, "lights: [{type: point, at: [0.2, 1.5, 1.5], lumens: 1000}]\n");
-    assert_true(scene_focuses(s, 0.10));
-    assert_true(scene_left_unfocused(s, 0.10, false).lamps_lm == 0.0);
-    scene_omission o = scene_left_unfocused(s, 0.15, false);
-    assert_near(o.lamps, share, 0.05); /* by some 200 of 16384 particles, drawn evenly */
-    assert_near(o.lamps_lm, 1000.0 * share, 0.05);
+    const scene *s     = with_ball(glass, "lights: [" FAR_LAMP "]\n");
+    assert_true(scene_focuses(s));
+    assert_true(scene_left_unfocused(s, false).lamps_lm == 0.0);
+    assert_near(s->by_lamps.focused, share, 0.05); /* by some 200 of 16384 particles, evenly */
+    s = with_ball(glass, "lights: [" FAR_LAMP ", " AWAY_LAMP "]\n");
+    assert_false(scene_focuses(s));
+    scene_omission o = scene_left_unfocused(s, false);
+    assert_near(o.lamps, 0.1 * share, 0.25); /* by 20 particles, at one standard deviation */
+    assert_near(o.lamps_lm, 1000.0 * share, 0.25);
     assert_true(o.suns == 0.0 && o.suns_lm == 0.0);
-    assert_true(scene_left_unfocused(s, 0.15, true).lamps_lm == 0.0); /* nor is it asked for */
+    assert_true(scene_left_unfocused(s, true).lamps_lm == 0.0); /* nor is it asked for */
 }
 
 TEST(what_a_round_mirror_leaves_is_focused)

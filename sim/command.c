@@ -85,7 +85,8 @@ bool command_maps(const command_context *c, const scene *s, int runs, run_option
     double asked = !isnan(o->accuracy)          ? o->accuracy
                    : !isnan(s->study->accuracy) ? s->study->accuracy
                                                 : GRID_DEFAULT_PERCENT / 100.0;
-    if (!*made && (runs > 1 || o->maps) && !light_maps_indirect(c->a, s, o, asked, made, err))
+    if (!*made && (runs > 1 || o->maps) &&
+        !light_maps_indirect(c->a, s, o, asked, made, c->notices, err))
         return false;
     o->indirect = *made;
     return true;

@@ -230,7 +230,7 @@ bool grid_refine_maps(grid_run_state *g, arena *a, accuracy_result *got, bool *f
     double accuracy = g->r->asked / (double)(2 << g->refined++);
     int64_t before  = illumination_map_figures(g->maps.indirect).particles;
     const illumination_map *map;
-    if (!light_maps_indirect(a, g->s, g->o, accuracy, &map, err)) {
+    if (!light_maps_indirect(a, g->s, g->o, accuracy, &map, NULL, err)) {
         bool stopped = err->code == ERR_INTERRUPTED;
         *finer       = false;
         got->end     = RUN_INTERRUPTED;

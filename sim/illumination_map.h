@@ -90,7 +90,7 @@ map_figures illumination_map_figures(const illumination_map *m);
 /* To a file, and back. A file holds the cells, values of each group undimmed, and a fingerprint of
  * all of the scene that they depend on (geometry, materials, lights but for their dimming, seed and
  * particles): read() returns NULL without an error where there is no such file or it is of another
- * scene (*why says in what), and NULL with *err where it is damaged. */
+ * scene (*why says in what; else NULL), and NULL with *err where it is damaged. */
 bool illumination_map_write(const char *path, const illumination_map *m, lux_error *err);
 const illumination_map *illumination_map_read(arena *a, const char *path, const scene *s,
                                               const map_options *o, const char **why,

@@ -32,7 +32,7 @@ static map_options options_of(const run_options *o, map_light which, double accu
 }
 
 bool light_maps_indirect(arena *a, const scene *s, const run_options *o, double accuracy,
-                         const illumination_map **out, lux_error *err)
+                         const illumination_map **out, notices *n, lux_error *err)
 {
     map_options of  = options_of(o, MAP_INDIRECT, accuracy);
     lux_error wrong = { 0 };
@@ -44,6 +44,8 @@ bool light_maps_indirect(arena *a, const scene *s, const run_options *o, double 
             return true;
         if (wrong.text[0]) /* wrong input, where one that cannot be written is a failure */
             return failed(err, wrong.code == ERR_IO ? ERR_ARGUMENT : wrong.code, "%s", wrong.text);
+        if (why)
+            notice_add(n, "%s: its maps are of other %s: they are made anew", o->maps, why);
     }
     *out = illumination_map_new(a, s, &of, err);
     return *out && (!o->maps || illumination_map_write(o->maps, *out, err));
@@ -78,7 +80,7 @@ bool light_maps_make(arena *a, const scene *s, const run_options *o, double accu
     if (o->transport != TRANSPORT_MAPS || o->bounded)
         return true;
     out->indirect = o->indirect;
-    if (!out->indirect && !light_maps_indirect(a, s, o, accuracy, &out->indirect, err))
+    if (!out->indirect && !light_maps_indirect(a, s, o, accuracy, &out->indirect, NULL, err))
         return false;
     map_figures f = illumination_map_figures(out->indirect);
     leave_out(out, s->glow_watts, s->glow_watts + luminance_of(f.emitted));

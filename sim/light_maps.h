@@ -23,8 +23,9 @@ bool light_maps_focused(arena *a, const scene *s, const run_options *o, double a
                         const map_sensors *sensors, int64_t particles, light_maps *out,
                         lux_error *err);
 
-/* The map of interreflected light alone, for several runs (run_options.indirect). */
+/* The map of interreflected light alone, for several runs (run_options.indirect). A file of maps
+ * that is replaced is told in n, which may be NULL. */
 bool light_maps_indirect(arena *a, const scene *s, const run_options *o, double accuracy,
-                         const illumination_map **out, lux_error *err);
+                         const illumination_map **out, notices *n, lux_error *err);
 
 #endif

@@ -427,10 +427,8 @@ const illumination_map *illumination_map_read(arena *a, const char *path, const 
 {
     *why       = NULL;
     FILE *file = fopen(path, "rb");
-    if (!file) {
-        *why = "there is no such file";
+    if (!file)
         return NULL;
-    }
     fclose(file);
     arena scratch               = { 0 };
     map_bytes b                 = { 0 };

@@ -191,7 +191,7 @@ void lab_check_all_ways(const char *what, const char *yaml, lab *l, const lab_pr
                               .transport     = transports[t],
                               .roulette_from = roulette_depths[d] };
             if (o.transport == TRANSPORT_MAPS && !map)
-                assert_true(light_maps_indirect(&l->a, s, &o, accuracy, &map, NULL));
+                assert_true(light_maps_indirect(&l->a, s, &o, accuracy, &map, NULL, NULL));
             o.indirect = map;
             grid_of_scene(&l->a, s, 0, &o, &r);
             /* Maps do not grow finer for one sensor's sake, and what they smooth is told */

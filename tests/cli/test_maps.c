@@ -25,6 +25,11 @@ TEST(maps_are_made_once_and_give_the_same_light_again)
     assert_int_equal(stat(path_in(folder, "m.maps"), &later), 0);
     assert_int_equal(made.st_ino, later.st_ino); /* a new one would be another file */
     assert_same_bytes(path_in(folder, "1/floor.csv"), path_in(folder, "2/floor.csv"));
+    assert_null(strstr(r.err, "anew"));
+    LUX4(folder, 0, &r, "grid", "study.yaml", "--transport=maps", "--save-maps=m.maps", "-o", "3",
+         "--seed=7");
+    assert_non_null(strstr(r.err, "m.maps: its maps are of other seed, particles or accuracy: they "
+                                  "are made anew"));
     program_free(&r);
     folder_free(folder);
 }

@@ -36,14 +36,17 @@ static void cube(double rho, double total, double accuracy)
             direct += r.direct[k] / r.sensor_count;
             reflected += r.indirect[k] / r.sensor_count;
         }
-        /* Sensors are independent: their mean is surer than each by the root of their number; from
-         * 95 % to 99.9 %, t of 15 degrees of freedom */
+        /* By paths sensors are independent: their mean is surer than each by the root of their
+         * number; from 95 % to 99.9 %, t of 15 degrees of freedom. The noise of maps is common to
+         * all: 1 %, where it was 0.4 % at most with five seeds, and is stated as 2 %. */
         double stretch = 4.0728 / 2.1314;
-        double off     = stretch * r.average_half_width / sqrt((double)r.sensor_count);
+        double off     = o.transport == TRANSPORT_MAPS
+                             ? 0.01 * (r.average - direct)
+                             : stretch * r.average_half_width / sqrt((double)r.sensor_count);
         assert_near(direct, 104.1667, 7e-4);
         assert_true(fabs(r.average - total) <= 7e-4 * total + off);
         assert_true(fabs(reflected - (double)(float)rho * total) <= 7e-4 * total + off);
-        assert_true(off <= 5e-3 * total);
+        assert_true(off <= (o.transport == TRANSPORT_MAPS ? 0.01 : 5e-3) * total);
     }
     arena_clear(&a);
     lab_close(&l);

@@ -4,11 +4,15 @@
  * light.
  */
 #include "core/color.h"
+#include "core/warp.h"
 #include "sim/path_parts.h"
 #include "sim/sensor.h"
 
 /* Of the directions that are asked in: drawn without regard to portals. */
 static const float dome_share = 0.125f;
+
+/* Of those at the end of a path: drawn without regard to skies. */
+static const float even_share = 0.5f;
 
 /* The density with which draw() draws wi, 1/sr. */
 static vfloat sky_pdf(const scene *s, const vvec3 *p, const vvec3 *n, const vvec3 *wi, vmask active)
@@ -57,6 +61,22 @@ static void add_skies(path_tracer *t, int k, const vvec3 *wi, vrgb worth, vmask 
     }
 }
 
+/* Where paths end no ray finds what skies have everywhere alike, which domes leave out (dome.h): so
+ * in a share of cases the direction is drawn by its cosine there; both ways have one density. */
+static vmask draw_at_ends(path_tracer *t, int k, const vsample4 *u, vmask facing)
+{
+    const vsurface *at = &t->at[k];
+    direct_pick *to    = &t->lights[k];
+    vmask ends         = t->asks[k] & t->ends[k];
+    vmask even         = ends & (u->w < even_share);
+    to->wi             = vselect3(even, vwarp_cosine_about(at->normal, u->x, u->y), to->wi);
+    vfloat cosine      = vmax(vdot(to->wi, at->normal), vsplat(0.0f));
+    vfloat aimed       = sky_pdf(t->s, &at->position, &at->normal, &to->wi, ends);
+    vfloat both        = (1.0f - even_share) * aimed + even_share * vwarp_cosine_pdf(cosine);
+    to->pdf            = vselect(ends, both, to->pdf);
+    return facing | (even & (cosine > 0.0f));
+}
+
 static void aim(path_tracer *t, int k, bool beginning)
 {
     const vsurface *at = &t->at[k];
@@ -64,9 +84,11 @@ static void aim(path_tracer *t, int k, bool beginning)
     vsample4 u         = path_numbers(t, k, OF_SKY);
     vvec3 n            = path_horizon(t, k, beginning);
     vmask facing       = draw(t->s, &at->position, &n, &u, t->asks[k], &to->wi, &to->pdf);
-    vmask around       = (n.x == 0.0f) & (n.y == 0.0f) & (n.z == 0.0f);
-    t->asked[k]        = facing & (around | (vdot(to->wi, at->normal) > 0.0f));
-    t->rays[k]         = direct_shadow_ray(at, &to->wi, vsplat(INFINITY));
+    if (!beginning && t->indirect && vany(t->asks[k] & t->ends[k]))
+        facing = draw_at_ends(t, k, &u, facing);
+    vmask around = (n.x == 0.0f) & (n.y == 0.0f) & (n.z == 0.0f);
+    t->asked[k]  = facing & (around | (vdot(to->wi, at->normal) > 0.0f));
+    t->rays[k]   = direct_shadow_ray(at, &to->wi, vsplat(INFINITY));
 }
 
 /* Light that has come straight through solids is found by nobody else. */

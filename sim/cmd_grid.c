@@ -124,7 +124,6 @@ static void print_json(const grid_result *r, bool first)
     }
     if (r->left_out_lm > 0.0)
         json_field("left_out_lm", r->left_out_lm);
-    command_omission_json(&r->unfocused);
     if (r->left_out)
         json_field("sensors_left_out", r->left_out);
     if (r->end == RUN_INTERRUPTED)

@@ -21,7 +21,6 @@ static void print_view(const command_context *c, const view_result *r, const cha
         json_string(stdout, png);
         if (r->end == RUN_INTERRUPTED)
             fputs(",\"partial\":true", stdout);
-        command_omission_json(&r->unfocused);
         printf(",\"interval_valid\":%s", r->left_to_chance ? "false" : "true");
         printf(",\"seconds\":%.9g,\"rays\":%lld}", r->seconds, (long long)r->rays);
         return;
@@ -33,7 +32,6 @@ static void print_view(const command_context *c, const view_result *r, const cha
     snprintf(pixels, sizeof pixels, "%dx%d", r->width, r->height);
     printf("%-16s %11s %15.2f %12.1f %9.2f %12.1f\n", r->view->name, pixels, r->log_average,
            100.0 * r->reached, r->seconds, 1e-6 * (double)r->rays);
-    command_omission("  left out", &r->unfocused);
     if (r->left_to_chance)
         printf("  interval not valid: %s\n", r->left_to_chance);
     printf("  written: %s, %s\n", exr, png);

@@ -92,37 +92,6 @@ bool command_maps(const command_context *c, const scene *s, int runs, run_option
     return true;
 }
 
-static void print_omission(const char *begin, const char *whose, double share, double lumens)
-{
-    if (lumens > 0.0)
-        printf("%s: about %.*f lm of %s, %.2g %% of their light, that round mirrors or "
-               "solids of glass focus: too little to look for\n",
-               begin, lumens < 10.0 ? 2 : 0, lumens, whose, 100.0 * share);
-}
-
-void command_omission(const char *begin, const scene_omission *o)
-{
-    print_omission(begin, "lamps", o->lamps, o->lamps_lm);
-    print_omission(begin, "suns", o->suns, o->suns_lm);
-}
-
-static void json_omission(const char *whose, double share, double lumens)
-{
-    char key[40];
-    if (!(lumens > 0.0))
-        return;
-    snprintf(key, sizeof key, "focused_of_%s_left_out_lm", whose);
-    json_field(key, lumens);
-    snprintf(key, sizeof key, "focused_of_%s_left_out_percent", whose);
-    json_field(key, 100.0 * share);
-}
-
-void command_omission_json(const scene_omission *o)
-{
-    json_omission("lamps", o->lamps, o->lamps_lm);
-    json_omission("suns", o->suns, o->suns_lm);
-}
-
 void command_grid_remarks(const grid_result *r, run_end end, int missed, double asked,
                           const char *left_to_chance)
 {
@@ -137,7 +106,6 @@ void command_grid_remarks(const grid_result *r, run_end end, int missed, double 
                                : " of all as dimmed (layers are)");
     if (r->left_out_lm > 0.0)
         printf("  left out by maps: %.3g lm\n", r->left_out_lm);
-    command_omission("  left out", &r->unfocused);
     if (left_to_chance)
         printf("  interval not valid: %s\n", left_to_chance);
 }

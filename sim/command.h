@@ -109,11 +109,6 @@ bool command_transport_fits(const command_context *c, lux_error *err);
 bool command_maps(const command_context *c, const scene *s, int runs, run_options *o,
                   const struct illumination_map **made, lux_error *err);
 
-/* What results and plans say of light that is not looked for: in lines that begin so ("left
- * out"), and as members that follow others. */
-void command_omission(const char *begin, const scene_omission *o);
-void command_omission_json(const scene_omission *o);
-
 /* What a table says below a grid of its sensors, of accuracy and of intervals. */
 void command_grid_remarks(const grid_result *r, run_end end, int missed, double asked,
                           const char *left_to_chance);

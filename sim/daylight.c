@@ -182,8 +182,6 @@ static bool keep_run(const daylight *d, daylight_series *s, const grid_result *r
     s->reached        = fmax(s->reached, r->reached);
     s->missed         = r->missed > s->missed ? r->missed : s->missed;
     s->left_to_chance = s->left_to_chance ? s->left_to_chance : r->left_to_chance;
-    if (r->unfocused.lamps + r->unfocused.suns > s->plan.unfocused.lamps + s->plan.unfocused.suns)
-        s->plan.unfocused = r->unfocused; /* the batch where it is most */
     s->seconds += r->seconds;
     s->rays += r->rays;
     return true;

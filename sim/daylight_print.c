@@ -82,7 +82,6 @@ static void begin_grid(const grid_result *r, bool first)
     json_field("sensors", r->sensor_count);
     if (r->left_out)
         json_field("sensors_left_out", r->left_out);
-    command_omission_json(&r->unfocused);
 }
 
 static void end_grid(run_end end, int missed)

@@ -102,7 +102,7 @@ static double room_for_smoothing(const grid_run_state *g)
 /* A scramble; more where some light comes by way of what is nearly a mirror: it is met rarely. */
 static int first_samples(const scene *s)
 {
-    return s->by_lamps.narrow > SHARE_THAT_MATTERS ? MIRROR_SAMPLES / SCRAMBLES : 8;
+    return scene_is_rarely_met(s) ? MIRROR_SAMPLES / SCRAMBLES : 8;
 }
 
 static bool interrupted(const grid_result *r, lux_error *err)
@@ -212,7 +212,6 @@ bool grid_run(arena *a, const scene *s, const study_grid *grid, const run_option
                           : !isnan(s->study->accuracy) ? s->study->accuracy
                                                        : GRID_DEFAULT_PERCENT / 100.0;
     out->left_to_chance = scene_left_to_chance(s, o->direct_only);
-    out->unfocused      = scene_left_unfocused(s, o->direct_only);
     g.channels          = lay_out(&g);
     good = good && grid_make_results(a, &g, out, err) && make_known(&scratch, &g, err) &&
            make_threads(&g, &scratch, err) && run(a, &scratch, &g, out, err) &&

@@ -84,7 +84,6 @@ typedef struct grid_result {
     double asked;               /* the accuracy that was asked for */
     int missed;                 /* sensors whose half width is beyond it */
     double left_out_lm;         /* lm: of light that maps are to find, what they do not hold */
-    scene_omission unfocused;   /* light that is not looked for */
     bool smoothed;              /* half widths hold what illumination maps smooth */
     int in_doubt;               /* that see surfaces, and by way of them no light at all */
     double reached;             /* the accuracy that every sensor has */

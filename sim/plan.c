@@ -171,7 +171,6 @@ bool plan_make(const scene *s, const plan_options *o, plan *out, notices *n, lux
         decide(&d, n);
         bool direct      = out->off >> EFFECT_INTERREFLECTION & 1;
         const char *weak = scene_left_to_chance(s, direct);
-        out->unfocused   = scene_left_unfocused(s, direct);
         if (weak)
             out->weak[out->weak_count++] = weak;
     }

@@ -37,8 +37,7 @@ typedef struct plan {
     double bound;    /* of all that is off, but for what the user forced off */
     transport transport;
     char transport_why[200];
-    scene_omission unfocused; /* light that a run of that accuracy does not look for */
-    int weak_count;           /* path classes that no sampler here reaches well: results say so */
+    int weak_count; /* path classes that no sampler here reaches well: results say so */
     const char *weak[LIGHT_CLASSES];
 } plan;
 

@@ -28,7 +28,6 @@ void plan_print(const plan *p)
            "the accuracy asked for (%g %%)\n",
            100.0 * p->bound, 20.0 * p->accuracy, 100.0 * p->accuracy);
     printf("transport: %s: %s\n", transport_name(p->transport), p->transport_why);
-    command_omission("left out", &p->unfocused);
     for (int i = 0; i < p->weak_count; i++)
         printf("interval not valid: %s\n", p->weak[i]);
 }
@@ -38,7 +37,6 @@ void plan_print_views(const plan *p)
     const plan_effect *e = &p->effects[EFFECT_ANTIALIASING];
     printf("antialiasing of views: %s: %s\n", e->on ? "on" : "off", e->why);
     printf("transport of views: %s: %s\n", transport_name(p->transport), p->transport_why);
-    command_omission("left out of views", &p->unfocused);
 }
 
 void plan_print_json(const plan *p)
@@ -58,7 +56,6 @@ void plan_print_json(const plan *p)
     json_field("accuracy_percent", 100.0 * p->accuracy);
     json_field_text("transport", transport_name(p->transport));
     json_field_text("transport_why", p->transport_why);
-    command_omission_json(&p->unfocused);
     fputs(",\"weak\":[", stdout);
     for (int i = 0; i < p->weak_count; i++) {
         fputs(i ? "," : "", stdout);

@@ -179,7 +179,6 @@ bool view_run(arena *a, const scene *s, const study_view *view, const run_option
                                         .asked = isnan(o->accuracy) ? VIEW_DEFAULT_PERCENT / 100.0 : o->accuracy,
                                         .left_to_chance = scene_left_to_chance(s, o->direct_only) };
     v.asked            = out->asked;
-    out->unfocused     = scene_left_unfocused(s, o->direct_only);
     progress_begin(o->progress, view->name);
     bool good = run(a, &scratch, &v, out, err);
     if (!good && err->code == ERR_INTERRUPTED)

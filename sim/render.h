@@ -34,7 +34,6 @@ typedef struct view_result {
     double log_average;         /* cd/m^2, of the pixels that are not black */
     run_end end;                /* why it ended; what is here is complete all the same */
     const char *left_to_chance; /* why the intervals are not valid; NULL: they are */
-    scene_omission unfocused;   /* light that is not looked for */
     double seconds;
     int64_t rays;
 } view_result;

@@ -96,9 +96,8 @@ typedef struct light_set {
 /* The shares of light that come to surfaces, from where they go on, otherwise than straight or by
  * mirror images: measured with some thousand particles. */
 typedef struct scene_ways {
-    double focused;    /* by round mirrors, and by solids that refract */
-    double narrow;     /* by way of narrow lobes */
-    double focused_lm; /* lm: what the first share comes to, of lights as the scene holds them */
+    double focused; /* by round mirrors, and by solids that refract */
+    double narrow;  /* by way of narrow lobes */
 } scene_ways;
 
 /* Less than that share does not matter: a tenth of the accuracy that is promised if none is asked
@@ -189,15 +188,12 @@ typedef struct scene {
     int small_patches; /* lamps that light a patch too small for samples to find reliably */
 } scene;
 
-/* Whether so much light is focused that it matters: then results want a map of it. */
+/* Whether results want a map of focused light: some is of suns, or of lamps too small to be met by
+ * rays. However little it is of all, it may be much where it comes together. */
 bool scene_focuses(const scene *s);
 
-/* Focused light that runs do not look for, as too little: shares as in
- * scene_ways, and lm. All 0: there is none, or there is a map of it. */
-typedef struct scene_omission {
-    double lamps, suns, lamps_lm, suns_lm;
-} scene_omission;
-scene_omission scene_left_unfocused(const scene *s, bool direct_only);
+/* Whether light of lamps comes by ways that rays find rarely: then many samples come first. */
+bool scene_is_rarely_met(const scene *s);
 
 /* The light that samples may miss without an interval telling, in words; NULL if there is none. */
 const char *scene_left_to_chance(const scene *s, bool direct_only);

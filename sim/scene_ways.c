@@ -147,9 +147,7 @@ static scene_ways ways_of(const tally *t)
 {
     if (!(t->all > 0.0))
         return (scene_ways){ 0 };
-    return (scene_ways){ .focused    = t->focused / t->all,
-                         .narrow     = t->narrow / t->all,
-                         .focused_lm = LUMENS_PER_WATT * t->focused / PARTICLES };
+    return (scene_ways){ .focused = t->focused / t->all, .narrow = t->narrow / t->all };
 }
 
 static void tell(const scene *s, notices *n, const char *whose, double share, const char *how,
@@ -195,9 +193,10 @@ static void tell_ways(scene *s, const tally *lamps, const tally *suns, notices *
 {
     static const char round[]  = "by way of round mirrors or solids of glass";
     static const char narrow[] = "by way of narrow lobes";
-    static const char map[]    = "where that matters it is found by particles";
+    static const char map[]    = "it is found by particles";
     static const char lost[]   = "it is found rarely, intervals are not valid";
-    tell(s, n, "lamps", s->by_lamps.focused, round, lamps->focused_by, map);
+    if (s->lamps_hide)
+        tell(s, n, "lamps", s->by_lamps.focused, round, lamps->focused_by, map);
     tell(s, n, "suns", s->by_suns.focused, round, suns->focused_by, map);
     if (s->lamps_hide)
         tell(s, n, "lamps", s->by_lamps.narrow, narrow, lamps->narrow_by, lost);
@@ -227,18 +226,12 @@ bool scene_find_ways(scene *s, notices *n, lux_error *err)
     return fates != NULL;
 }
 
-/* However rough results may be: a little of all light is much where it comes together. */
 bool scene_focuses(const scene *s)
 {
-    return fmax(s->by_lamps.focused, s->by_suns.focused) > SHARE_THAT_MATTERS;
+    return (s->lamps_hide && s->by_lamps.focused > 0.0) || s->by_suns.focused > 0.0;
 }
 
-scene_omission scene_left_unfocused(const scene *s, bool direct_only)
+bool scene_is_rarely_met(const scene *s)
 {
-    if (direct_only || !s->reflects || scene_focuses(s))
-        return (scene_omission){ 0 };
-    return (scene_omission){ .lamps    = s->by_lamps.focused,
-                             .suns     = s->by_suns.focused,
-                             .lamps_lm = s->by_lamps.focused_lm,
-                             .suns_lm  = s->by_suns.focused_lm };
+    return s->by_lamps.narrow + (s->lamps_hide ? 0.0 : s->by_lamps.focused) > SHARE_THAT_MATTERS;
 }

@@ -117,43 +117,6 @@ TEST(words_that_are_no_effect_or_transport_are_refused)
     LUX4_FAILS(NULL, 2, "none.yaml", "plan", "none.yaml");
 }
 
-/* Of one lamp's 1000 lm a ball of glass focuses 1.2 %, of those of both 0.12 %: some 20 of the
- * particles that tell. */
-TEST(focused_light_that_is_left_out_is_told_in_lumens)
-{
-    static const char says[] = "% of their light, that round mirrors or solids of "
-                               "glass focus: too little to look for";
-    char *folder             = folder_of_study(
-                    "lux4: 1\nroom: {size: [5, 3, 3], reflectance: 0.3}\naccuracy: 20%\nscene: ball.gltf\n"
-                                "lights: [{type: point, at: [0.2, 1.5, 1.5], lumens: 1000}, {type: cone, at: [1, 1.5, "
-                                "1.5], aim: [-1, 0, 0], lumens: 9000, inner: 10, outer: 20}]\n"
-                                "grids: [{name: g, on: room, height: 0.5, spacing: 1}]\n"
-                                "views: [{name: v, eye: [0.5, 0.5, 1.5], target: [4, 3, 1], fov: 60, size: [8, 6]}]\n");
-    lab l            = { .folder = folder };
-    program_result r = { 0 };
-    lab_sphere(&l, "ball.gltf", (dvec3){ 2.5, 1.5, 1.5 }, 0.5, 32,
-               "\"name\":\"Ball\",\"pbrMetallicRoughness\":{\"metallicFactor\":0,"
-               "\"roughnessFactor\":0},\"extensions\":{\"KHR_materials_transmission\":{"
-               "\"transmissionFactor\":1},\"KHR_materials_volume\":{\"thicknessFactor\":1}}");
-    LUX4(folder, 0, &r, "plan", "study.yaml");
-    assert_non_null(strstr(r.out, says));
-    LUX4(folder, 0, &r, "plan", "study.yaml", "--json");
-    assert_true(json_is_valid(r.out));
-    assert_near(json_number_at(r.out, "focused_of_lamps_left_out_lm"), 12.0, 0.25);
-    assert_near(json_number_at(r.out, "focused_of_lamps_left_out_percent"), 0.12, 0.25);
-    LUX4(folder, 0, &r, "grid", "study.yaml");
-    assert_non_null(strstr(r.out, says));
-    LUX4(folder, 0, &r, "grid", "study.yaml", "--json", "--overwrite");
-    assert_near(json_number_at(r.out, "grids.0.focused_of_lamps_left_out_lm"), 12.0, 0.25);
-    LUX4(folder, 0, &r, "render", "study.yaml", "--accuracy", "40%");
-    assert_non_null(strstr(r.out, says));
-    LUX4(folder, 0, &r, "render", "study.yaml", "--accuracy", "40%", "--json", "--overwrite");
-    assert_near(json_number_at(r.out, "views.0.focused_of_lamps_left_out_lm"), 12.0, 0.25);
-    program_free(&r);
-    arena_clear(&l.a);
-    folder_free(folder);
-}
-
 /* In a room with a window, which is dark at night; three moments of one day. */
 TEST(a_series_is_planned_for_as_a_whole)
 {
@@ -181,7 +144,6 @@ int main(void)
         cmocka_unit_test(what_is_forced_off_is_told_of),
         cmocka_unit_test(all_forced_on_is_no_warning_and_the_same_within_intervals),
         cmocka_unit_test(words_that_are_no_effect_or_transport_are_refused),
-        cmocka_unit_test(focused_light_that_is_left_out_is_told_in_lumens),
         cmocka_unit_test(a_series_is_planned_for_as_a_whole),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

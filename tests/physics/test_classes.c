@@ -61,11 +61,10 @@ static const scene *room_of_all(lab *l)
 
 static void measure(lab *l, const scene *s, transport by, bool brute, grid_result *r)
 {
-    scene plain = *s;
-    if (brute) { /* all that rays find by chance */
-        plain.mirror_images    = NULL;
-        plain.by_lamps.focused = 0.0;
-    }
+    scene plain      = *s;
+    plain.lamps_hide = !brute; /* a map of focused light is made all the same */
+    if (brute)                 /* all that rays find by chance */
+        plain.mirror_images = NULL;
     grid_of_scene(&l->a, &plain, 0,
                   &(run_options){ .accuracy     = 0.05,
                                   .seed         = brute ? 5 : 3,

@@ -188,8 +188,8 @@ typedef struct scene {
     int small_patches; /* lamps that light a patch too small for samples to find reliably */
 } scene;
 
-/* Whether results want a map of focused light: some is of suns, or of lamps too small to be met by
- * rays. However little it is of all, it may be much where it comes together. */
+/* Whether results want a map of focused light: some may be of suns, or of lamps too small to be met
+ * by rays. However little it is of all, it may be much where it comes together. */
 bool scene_focuses(const scene *s);
 
 /* Whether light of lamps comes by ways that rays find rarely: then many samples come first. */

@@ -228,7 +228,9 @@ bool scene_find_ways(scene *s, notices *n, lux_error *err)
 
 bool scene_focuses(const scene *s)
 {
-    return (s->lamps_hide && s->by_lamps.focused > 0.0) || s->by_suns.focused > 0.0;
+    bool lamps = scene_lamp_count(s) > 0 && (s->by_lamps.focused > 0.0 || s->lenses);
+    bool suns  = s->sun_count > 0 && (s->by_suns.focused > 0.0 || s->lenses);
+    return (lamps && s->lamps_hide) || suns;
 }
 
 bool scene_is_rarely_met(const scene *s)

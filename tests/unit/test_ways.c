@@ -40,17 +40,22 @@ TEST(panes_and_plane_mirrors_focus_nothing)
  * (r/d)^2)) / 2 meets it. */
 static double share_met(void) { return 0.5 * (1.0 - sqrt(1.0 - 25.0 / 36.0)); }
 
-static const scene *with_ball(const char *made_of, const char *more)
+static const scene *with_ball_of(double radius, const char *made_of, const char *more)
 {
     lab l;
     lab_open(&l);
-    lab_sphere(&l, "ball.gltf", (dvec3){ 2.5, 1.5, 1.5 }, 0.5, 64, made_of);
+    lab_sphere(&l, "ball.gltf", (dvec3){ 2.5, 1.5, 1.5 }, radius, 64, made_of);
     const scene *s = told_scene_of(text_of(told_memory(),
                                            "room: {size: [5, 3, 3], reflectance: 0.5}\n"
                                            "scene: %s/ball.gltf\n%s",
                                            l.folder, more));
     lab_close(&l);
     return s;
+}
+
+static const scene *with_ball(const char *made_of, const char *more)
+{
+    return with_ball_of(0.5, made_of, more);
 }
 
 #define LAMP "lights: [{type: point, at: [1.9, 1.5, 1.5], lumens: 1000}]\n"
@@ -87,6 +92,15 @@ TEST(a_little_focused_light_is_looked_for_too)
     assert_true(s->by_lamps.focused > SHARE_THAT_MATTERS);
     assert_false(scene_focuses(s));
     assert_true(scene_is_rarely_met(s));
+}
+
+/* Of the rays that look for solids a marble is met by 0.2 in the mean. */
+TEST(a_marble_is_no_plate)
+{
+    const scene *s = with_ball_of(0.01, glass, LAMP);
+    assert_true(s->lenses);
+    assert_true(scene_focuses(s));
+    assert_null(scene_left_to_chance(s, false));
 }
 
 TEST(what_a_round_mirror_leaves_is_focused)
@@ -154,6 +168,7 @@ int main(void)
         CASE(panes_and_plane_mirrors_focus_nothing),
         CASE(all_that_meets_a_ball_of_clear_glass_is_focused),
         CASE(a_little_focused_light_is_looked_for_too),
+        CASE(a_marble_is_no_plate),
         CASE(what_a_round_mirror_leaves_is_focused),
         CASE(a_matt_ball_focuses_nothing),
         CASE(sunlight_by_narrow_lobes_is_told_of),

@@ -10,7 +10,7 @@
 enum {
     CELLS        = 1 << 14, /* of all sources together, about, */
     MOST_BLOCKS  = 1 << 12, /* of one at most, */
-    LEAST_BLOCKS = 1 << 6,  /* and at least */
+    LEAST_BLOCKS = 4,       /* and at least */
     ROUNDS       = 3,
     LEAST_CHUNKS = 64, /* of pilots, in a round, */
     PILOT_SHARE  = 16, /* else one pilot of a round for so many particles */

@@ -9,6 +9,8 @@
 
 /* ---- a run ----------------------------------------------------------------------------------- */
 
+enum { ROUGH_SAMPLES = 64 }; /* a sensor */
+
 static bool make_bundle(const grid_run_state *g, arena *a, path_bundle *b, lux_error *err)
 {
     const grid_channels *c = &g->channels;
@@ -111,28 +113,51 @@ static bool interrupted(const grid_result *r, lux_error *err)
                   r->grid->name);
 }
 
+/* Of a run with the maps that there are. */
+static accuracy_desc desc_of(grid_run_state *g)
+{
+    const grid_result *r = g->r;
+    return (accuracy_desc){ .items    = r->sensor_count,
+                            .channels = g->channels.count,
+                            .judged   = g->channels.judged,
+                            .told     = g->channels.classes >= 0 ? LIGHT_CLASSES : 0,
+                            .apart    = g->moments > 0,
+                            .exact    = g->known,
+                            .bound    = g->bound,
+                            .fixed    = g->fixed,
+                            .common   = g->maps.indirect || g->maps.focused,
+                            .accuracy = (r->asked - g->o->bound) * (1.0 - room_for_smoothing(g)),
+                            .needed   = 1.0,
+                            .floor    = FLOOR_MEAN,
+                            .first_samples = first_samples(g->s),
+                            .dark_samples  = 256,
+                            .only_samples  = g->o->only_samples,
+                            .threads       = g->o->threads,
+                            .deadline      = g->o->deadline,
+                            .progress      = g->o->progress,
+                            .sample        = grid_sample,
+                            .context       = g };
+}
+
+/* lx, of each sensor: all light but what is known and what maps of focused light know, roughly. */
+bool grid_find_rough(grid_run_state *g, arena *a, lux_error *err)
+{
+    const illumination_map *focused = g->maps.focused;
+    accuracy_desc d                 = desc_of(g);
+    accuracy_result got;
+    d.only_samples  = ROUGH_SAMPLES;
+    d.progress      = NULL;
+    g->maps.focused = NULL;
+    bool good       = accuracy_run(a, &d, &got, err);
+    g->maps.focused = focused;
+    if (good)
+        g->rough = got.mean + (size_t)SAMPLED * (size_t)g->r->sensor_count;
+    return good;
+}
+
 static bool sample_rest(arena *a, arena *scratch, grid_run_state *g, grid_result *r, lux_error *err)
 {
-    accuracy_desc d = { .items         = r->sensor_count,
-                        .channels      = g->channels.count,
-                        .judged        = g->channels.judged,
-                        .told          = g->channels.classes >= 0 ? LIGHT_CLASSES : 0,
-                        .apart         = g->moments > 0,
-                        .exact         = g->known,
-                        .bound         = g->bound,
-                        .fixed         = g->fixed,
-                        .common        = g->maps.indirect || g->maps.focused,
-                        .accuracy      = (r->asked - g->o->bound) * (1.0 - room_for_smoothing(g)),
-                        .needed        = 1.0,
-                        .floor         = FLOOR_MEAN,
-                        .first_samples = first_samples(g->s),
-                        .dark_samples  = 256,
-                        .only_samples  = g->o->only_samples,
-                        .threads       = g->o->threads,
-                        .deadline      = g->o->deadline,
-                        .progress      = g->o->progress,
-                        .sample        = grid_sample,
-                        .context       = g };
+    accuracy_desc d = desc_of(g);
     accuracy_result got;
     bool finer = false;
     do {

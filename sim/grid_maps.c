@@ -93,7 +93,7 @@ static void know_light(const grid_run_state *g, known_light *to)
         }
         double noise = half_width_of(off, &smoothed);
         smoothed     = fabs(smoothed);
-        to[k]        = (known_light){ .all      = g->known[k] + fine,
+        to[k]        = (known_light){ .all      = g->known[k] + g->rough[k] + fine,
                                       .smoothed = STEPS_SMOOTHED * smoothed,
                                       .sure     = STEPS_SMOOTHED * (smoothed - noise) };
         mean += to[k].all / (double)n;
@@ -203,7 +203,8 @@ bool grid_make_maps(grid_run_state *g, arena *a, lux_error *err)
         !light_maps_make(a, g->s, g->o, g->r->asked, &q.of, &g->maps, err))
         return false;
     q.of.allowed = q.allowed;
-    if (g->maps.focused && (!note_fixed(g, a, err) || !grow_focused(g, a, &q, known, err)))
+    if (g->maps.focused && (!grid_find_rough(g, a, err) || !note_fixed(g, a, err) ||
+                            !grow_focused(g, a, &q, known, err)))
         return false;
     for (int t = 0; t < g->o->threads; t++)
         path_use_maps(g->threads[t].paths, g->maps.indirect, g->maps.focused);

@@ -54,6 +54,7 @@ typedef struct grid_run_state {
     double *fixed;         /* lx: half widths that are of maps alone, in the same order; NULL */
     double *sun_known;     /* lx: of each sun, [sun * sensors + sensor]; NAN: samples add nothing */
     double *sun_share;     /* what of it is seen */
+    const double *rough;   /* lx, a sensor: see grid_find_rough() */
     light_maps maps;
     int refined; /* times */
     bool disks;  /* some sun is more than a point */
@@ -65,6 +66,9 @@ typedef struct grid_run_state {
 
 /* Maps of the run, and g->fixed (grid_maps.c). */
 bool grid_make_maps(grid_run_state *g, arena *a, lux_error *err);
+
+/* g->rough, which tells how good maps have to be. */
+bool grid_find_rough(grid_run_state *g, arena *a, lux_error *err);
 
 /* *finer: the map of interreflected light was made anew, of four times the particles, as it alone
  * keeps sensors from the accuracy asked for. That is done once at most, where there is time; not

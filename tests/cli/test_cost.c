@@ -119,7 +119,7 @@ TEST(files_that_grow_too_large_are_not_left_in_part)
     program_expect(1,
                    &(program_desc){ .folder          = folder,
                                     .out             = "/dev/null", /* or it is too large itself */
-                                    .most_file_bytes = 512,
+                                    .most_file_bytes = 64,
                                     .words = { "cost", "study.yaml", "--time=1", "--quiet" } },
                    &r);
     assert_one_line(&r, "out/cost.csv: cannot write");

@@ -33,7 +33,7 @@
  *
  * Where samples of a scramble share errors, the half of the samples that is a round's and the half
  * that was there before tell of them: with r the correlation of their means over the scrambles, the
- * square of the half width has r / ((1 + r) / 2) of itself to stay however many samples follow. At
+ * square of the half width has 2 r / (1 + r) of itself to stay however many samples follow. At
  * r > 0.9 that is believed: of independent halves 16 pairs show it once in 10^6 times (Fisher
  * 1921).
  *
@@ -112,7 +112,6 @@ typedef struct accuracy_result {
     uint32_t *samples;  /* an item: all its samples */
     int missed;         /* items that are not done */
     double floor;       /* what `floor` came to, of channel 0 */
-    int held_up;        /* of these, items whose samples' common errors keep them from it */
     double reached;     /* the accuracy that all but the items beyond `needed` have */
     run_end end;        /* RUN_DONE: the share needed is done */
     bool complete;      /* every item has at least two of its SCRAMBLES sets */

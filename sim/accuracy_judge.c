@@ -188,7 +188,6 @@ bool accuracy_judge(accuracy_state *s, lux_error *err)
     }
     s->r->floor       = s->floors[0];
     s->r->missed      = 0;
-    s->r->held_up     = 0;
     s->r->complete    = true;
     s->active_count   = 0;
     s->samples_before = s->samples_predicted = 0.0;
@@ -201,9 +200,7 @@ bool accuracy_judge(accuracy_state *s, lux_error *err)
             s->r->complete = false;
         bool missed = n == 0.0 || !(ratios[i] <= s->d->accuracy);
         s->r->missed += missed;
-        bool can = !missed || can_be_good(s, i);
-        s->r->held_up += !can;
-        if ((missed && can) || s->rounds < LEAST_ROUNDS) {
+        if ((missed && can_be_good(s, i)) || s->rounds < LEAST_ROUNDS) {
             double more = fmin(ratios[i] / s->d->accuracy, 1e3);
             s->samples_predicted += fmax(n, n * (more * more - 1.0));
             s->active[s->active_count++] = i;

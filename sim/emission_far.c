@@ -33,9 +33,7 @@ static vvec3 place_on_portal(const emission *e, const vvec3 *wi, vfloat sum, vfl
         const portal *p = &e->portals[i];
         vfloat seen     = portal_seen(e, i, wi);
         vmask taken     = (seen > 0.0f) & (before <= at);
-        vvec3 along     = vadd(vscale(vspread(p->u), 2.0f * st[0] - 1.0f),
-                               vscale(vspread(p->v), 2.0f * st[1] - 1.0f));
-        place           = vselect3(taken, vadd(vspread(p->centre), along), place);
+        place           = vselect3(taken, portal_place(p, st[0], st[1]), place);
         before          = before + seen;
     }
     return place;
@@ -47,13 +45,12 @@ static vfloat portals_on_line(const emission *e, const vvec3 *p, const vvec3 *wi
     vfloat count = vsplat(0.0f);
     for (int i = 0; i < e->portal_count; i++) {
         const portal *q = &e->portals[i];
-        vvec3 u = vspread(q->u), v = vspread(q->v), out = vspread(q->outward);
-        vfloat cos_out = vdot(*wi, out);
-        vvec3 to       = vsub(*p, vspread(q->centre));
-        vvec3 at       = vsub(to, vscale(*wi, vdot(to, out) / cos_out));
-        vmask in       = (cos_out > 0.0f) & (vabs(vdot(at, u)) <= vdot(u, u)) &
-                   (vabs(vdot(at, v)) <= vdot(v, v));
-        count = count + vkeep(in, vsplat(1.0f));
+        vvec3 out       = vspread(q->outward);
+        vfloat cos_out  = vdot(*wi, out);
+        vvec3 to        = vsub(*p, vspread(q->centre));
+        vvec3 at        = vsub(to, vscale(*wi, vdot(to, out) / cos_out));
+        vmask in        = (cos_out > 0.0f) & portal_covers(q, &at);
+        count           = count + vkeep(in, vsplat(1.0f));
     }
     return count;
 }

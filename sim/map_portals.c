@@ -61,9 +61,7 @@ static vvec3 place_on_portal(const scene *s, const vvec3 *p, const vvec3 *n, vfl
         const portal *q = &s->portal_list[i];
         vfloat chance   = chance_of(q, p, n);
         vmask taken     = (chance > 0.0f) & (before <= at);
-        vvec3 along     = vadd(vscale(vspread(q->u), 2.0f * st[0] - 1.0f),
-                               vscale(vspread(q->v), 2.0f * st[1] - 1.0f));
-        place           = vselect3(taken, vadd(vspread(q->centre), along), place);
+        place           = vselect3(taken, portal_place(q, st[0], st[1]), place);
         before          = before + chance;
     }
     return place;
@@ -76,14 +74,13 @@ static vfloat density(const scene *s, const vvec3 *p, const vvec3 *n, const vvec
     for (int i = 0; i < s->portal_count; i++) {
         const portal *q = &s->portal_list[i];
         vfloat chance   = chance_of(q, p, n);
-        vvec3 u = vspread(q->u), v = vspread(q->v), out = vspread(q->outward);
-        vvec3 to      = vsub(vspread(q->centre), *p);
-        vfloat cosine = -vdot(*wi, out);
-        vfloat far    = -vdot(to, out) / cosine;
-        vvec3 at      = vsub(vscale(*wi, far), to);
-        vmask through = (chance > 0.0f) & (cosine > 0.0f) & (vabs(vdot(at, u)) <= vdot(u, u)) &
-                        (vabs(vdot(at, v)) <= vdot(v, v));
-        of = of + vkeep(through, chance * far * far / (cosine * area_of(q)));
+        vvec3 out       = vspread(q->outward);
+        vvec3 to        = vsub(vspread(q->centre), *p);
+        vfloat cosine   = -vdot(*wi, out);
+        vfloat far      = -vdot(to, out) / cosine;
+        vvec3 at        = vsub(vscale(*wi, far), to);
+        vmask through   = (chance > 0.0f) & (cosine > 0.0f) & portal_covers(q, &at);
+        of              = of + vkeep(through, chance * far * far / (cosine * area_of(q)));
     }
     return vkeep(sum > 0.0f, of / sum);
 }

@@ -21,6 +21,21 @@ typedef struct portal {
     vec3 outward; /* unit: u x v or its reverse */
 } portal;
 
+/* The place on it at (s, t) in [0,1)^2: even on it as these are. */
+static inline vvec3 portal_place(const portal *q, vfloat s, vfloat t)
+{
+    vvec3 along =
+        vadd(vscale(vspread(q->u), 2.0f * s - 1.0f), vscale(vspread(q->v), 2.0f * t - 1.0f));
+    return vadd(vspread(q->centre), along);
+}
+
+/* Whether a place of its plane, from its centre, is on it. */
+static inline vmask portal_covers(const portal *q, const vvec3 *at)
+{
+    vvec3 u = vspread(q->u), v = vspread(q->v);
+    return (vabs(vdot(*at, u)) <= vdot(u, u)) & (vabs(vdot(*at, v)) <= vdot(v, v));
+}
+
 typedef struct portals portals;
 
 /* count >= 1 portals, under the mean luminance of skies (as dome_new; a uniform one, if that is 0

@@ -15,8 +15,10 @@ enum {
     WAVE_CHUNKS      = 4 * SCRAMBLES,
     FIRST_PILOTS     = 1 << 16,
     MOST_PILOTS      = 1 << 18,
-    PILOT_SHARE      = 8, /* one pilot for so many particles */
-    LEAST_CHUNKS     = 4, /* of a set */
+    PILOT_CHUNKS     = SCRAMBLES, /* at once */
+    PILOT_SHARE      = 8,         /* one pilot for so many particles */
+    ENOUGH_MARKS     = 1 << 20,   /* that pilots leave, however few they are */
+    LEAST_CHUNKS     = 4,         /* of a set, whose particles are deposited once each */
     MOST_CHUNKS      = 1 << 12,
     CELL_PARTICLES   = 512, /* that a cell gets at most, where memory allows */
     FEWEST_PARTICLES = 32,  /* that a sheet is to get to have cells */
@@ -88,15 +90,16 @@ static bool trace_wave(map_run *r, int chunks, lux_error *err)
 
 /* ---- pilots ---------------------------------------------------------------------------------- */
 
-/* Adds pilots until there are so many. */
+/* Adds pilots until there are so many, or until they have left enough, as where each is reflected a
+ * hundred times. */
 static bool send_pilots(map_run *r, size_t count, map_list *marks, lux_error *err)
 {
     size_t chunks = count / MAP_BATCH;
     for (int i = 0; i < WAVE_CHUNKS; i++)
         r->lists[i].size = sizeof(map_mark);
-    while (r->first < chunks) {
+    while (r->first < chunks && marks->count < ENOUGH_MARKS) {
         size_t left = chunks - r->first;
-        int some    = left < WAVE_CHUNKS ? (int)left : WAVE_CHUNKS;
+        int some    = left < PILOT_CHUNKS ? (int)left : PILOT_CHUNKS;
         if (!trace_wave(r, some, err))
             return false;
         for (int i = 0; i < some; i++)
@@ -126,14 +129,16 @@ static int64_t particles_for(const map_run *r, const map_growth *g)
         sum += w;
         square += w * w;
     }
-    int64_t least = (int64_t)LEAST_CHUNKS * MAP_BATCH * SCRAMBLES;
+    double pilots = (double)r->first * MAP_BATCH;
+    double each   = fmax(1.0, count / pilots); /* deposits of a particle */
+    int64_t least = (int64_t)(LEAST_CHUNKS / each * MAP_BATCH * SCRAMBLES);
     if (!(sum > 0.0))
         return least;
     double noise = gather_share * r->o->accuracy;
     double n     = 2.0 * count * square / (sum * sum) / (noise * noise);
     double seen  = r->all.ways > 0 ? M_PI * r->all.way2 / (double)r->all.ways : HUGE_VAL;
     double rooms = fmax(1.0, map_lit_area(g, &r->m->cells) / seen);
-    double want  = n * rooms * (double)r->first * MAP_BATCH / count;
+    double want  = n * rooms * pilots / count;
     double most  = (double)MOST_CHUNKS * MAP_BATCH * SCRAMBLES;
     return want < most ? (want > (double)least ? (int64_t)want : least) : (int64_t)most;
 }
@@ -215,7 +220,7 @@ static bool send_particles(map_run *r, uint32_t chunks, lux_error *err)
         r->lists[i].size = sizeof(map_deposit);
     }
     r->first = 0;
-    r->all   = (map_balance){ 0 };
+    r->all   = (map_balance){ .rays = r->all.rays };
     while (r->first < chunks) {
         uint32_t left = chunks - r->first, most = WAVE_CHUNKS / SCRAMBLES;
         uint32_t some = left < most ? left : most;
@@ -349,15 +354,17 @@ static void note_figures(map_run *r, double begun)
                      m->cells.sheet_room * sizeof(map_sheet);
     for (uint32_t i = 0; i < m->cells.mesh_count; i++)
         bytes += (size_t)m->cells.meshes[i].count * (3 * sizeof(int32_t) + sizeof(uint64_t));
-    m->figures         = (map_figures){ .particles = (int64_t)particles,
-                                        .rays      = r->all.rays,
-                                        .cells     = m->cells.node_count,
-                                        .bytes     = (int64_t)bytes,
-                                        .seconds   = clock_seconds() - begun,
-                                        .emitted   = watts(r->all.emitted, particles),
-                                        .absorbed  = watts(r->all.absorbed, particles),
-                                        .escaped   = watts(r->all.escaped, particles),
-                                        .unplaced  = watts(r->all.unplaced, particles) };
+    m->figures = (map_figures){ .particles = (int64_t)particles,
+                                .rays      = r->all.rays,
+                                .cells     = m->cells.node_count,
+                                .bytes     = (int64_t)bytes,
+                                .seconds   = clock_seconds() - begun,
+                                .emitted   = watts(r->all.emitted, particles),
+                                .absorbed  = watts(r->all.absorbed, particles),
+                                .escaped   = watts(r->all.escaped, particles),
+                                .unplaced  = watts(r->all.unplaced, particles) };
+    if (r->job.aim)
+        m->figures.rays += map_aim_rays(r->job.aim);
     m->figures.sources = r->job.aim ? map_aim_flux(r->job.aim) : m->figures.emitted;
 }
 

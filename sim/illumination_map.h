@@ -76,7 +76,8 @@ vec3 illumination_map_at_sensor(const illumination_map *m, int sensor, int set, 
                                 vec3 *coarse);
 
 typedef struct map_figures {
-    int64_t particles, rays;
+    int64_t particles;
+    int64_t rays; /* those of pilots included */
     int64_t cells, bytes;
     double seconds;
     vec3 sources;                    /* W: all light of what particles set out from */

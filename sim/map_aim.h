@@ -42,6 +42,9 @@ const map_aim *map_aim_new(arena *a, const aim_desc *d, lux_error *err);
 /* W, by channel: all light of the lamps and suns, as maintained, wherever it goes. */
 vec3 map_aim_flux(const map_aim *m);
 
+/* Which its pilots traced. */
+int64_t map_aim_rays(const map_aim *m);
+
 /* Where a particle is to turn first. */
 typedef struct vaimed {
     vfloat distance;         /* m, along its ray */

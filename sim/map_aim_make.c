@@ -149,10 +149,10 @@ static bool make_tables(aim_learner *l, arena *a, bool learned, lux_error *err)
 
 static void trace_round(void *context, int item, int thread)
 {
-    aim_learner *l      = context;
-    map_balance ignored = { 0 };
+    aim_learner *l = context;
+    l->came[item]  = (map_balance){ 0 };
     map_trace(l->d->tracers[thread], &l->job, (uint32_t)item * MAP_BATCH, MAP_BATCH, l->job.learns,
-              &l->lists[item], &ignored);
+              &l->lists[item], &l->came[item]);
 }
 
 /* Of flux at a sensor, 1/m^2: so that squares add up to the variance of its irradiance, by what it
@@ -232,9 +232,11 @@ static bool learn_round(aim_learner *l, int round, bool *some, lux_error *err)
     l->job.learns = hash_combine_u32(hash_combine_u32(d->seed, AIM_SEED), (uint32_t)round);
     if (!parallel_for(l->chunks, d->threads, trace_round, l, d->stop))
         return failed(err, ERR_INTERRUPTED, "illumination maps: interrupted");
-    for (int c = 0; c < l->chunks; c++)
+    for (int c = 0; c < l->chunks; c++) {
+        l->m->rays += l->came[c].rays;
         if (l->lists[c].lost)
             return aim_no_memory(err);
+    }
     *some = learn_shares(l, *some ? before_share : 0.0);
     return true;
 }
@@ -306,6 +308,8 @@ const map_aim *map_aim_new(arena *a, const aim_desc *d, lux_error *err)
     arena_clear(&l.scratch);
     return good ? m : NULL;
 }
+
+int64_t map_aim_rays(const map_aim *m) { return m->rays; }
 
 vec3 map_aim_flux(const map_aim *m)
 {

@@ -32,6 +32,7 @@ struct map_aim {
     aim_cut cut;
     const float *source_cdf;
     const float *block_cdf; /* [source * (blocks + 1)] */
+    int64_t rays;           /* of pilots */
 };
 
 /* Even places of those pieces, by a and b in [0, 1)^2; their normals, unit. */
@@ -52,6 +53,7 @@ typedef struct aim_learner {
     double *share;     /* with which cells are drawn */
     int chunks;
     map_list lists[MOST_AIM_CHUNKS];
+    map_balance came[MOST_AIM_CHUNKS];
     map_job job;
 } aim_learner;
 

@@ -259,6 +259,7 @@ bool accuracy_run(arena *a, const accuracy_desc *d, accuracy_result *out, lux_er
     accuracy_state s = { .d = d, .r = out, .judged = judged, .spread = judged + d->told };
     *out             = (accuracy_result){ .mean       = arena_array(a, double, values, err),
                                           .half_width = arena_array(a, double, spread *items, err),
+                                          .of_average = arena_array(a, double, spread, err),
                                           .samples    = arena_array(a, uint32_t, items, err) };
     s.total          = arena_array(&scratch, double, values, err);
     s.parts          = arena_array(&scratch, by_scramble, spread * items, err);
@@ -266,8 +267,10 @@ bool accuracy_run(arena *a, const accuracy_desc *d, accuracy_result *out, lux_er
     s.floors         = arena_array(&scratch, double, spread, err);
     s.active         = arena_array(&scratch, int, items, err);
     s.values  = arena_array(&scratch, float, (size_t)d->threads *(size_t)d->channels *BUNDLE, err);
-    bool good = out->mean && out->half_width && out->samples && s.total && s.parts && s.looks &&
-                s.floors && s.active && s.values && run_rounds(&s, err);
+    bool good = out->mean && out->half_width && out->of_average && out->samples && s.total &&
+                s.parts && s.looks && s.floors && s.active && s.values && run_rounds(&s, err);
+    if (good)
+        accuracy_judge_average(&s);
     for (size_t v = 0; good && v < values; v++) {
         uint32_t n   = out->samples[v % items];
         out->mean[v] = n ? s.total[v] / n : 0.0;

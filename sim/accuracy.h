@@ -37,6 +37,13 @@
  * r > 0.9 that is believed: of independent halves 16 pairs show it once in 10^6 times (Fisher
  * 1921).
  *
+ * The mean over all items has a half width by the same formula: what a scramble says of it is the
+ * mean of what it says of each. Whatever items share, as errors of a map, is in that; where they
+ * are independent, their half widths h_i tell the same with less noise, sqrt(sum h_i^2) / items,
+ * and hold what guards against stopping early. The larger one counts,
+ * and a twentieth of the mean half width more: what stopping early takes from each is no noise that
+ * would average out. The mean half width itself is the most that it can be.
+ *
  * Results depend on the seed and not on threads: rounds are common to all, samples are summed by
  * number. Only a deadline, or the user's Ctrl-C, cuts a round short.
  */
@@ -109,6 +116,7 @@ const char *run_end_text(run_end end);
 typedef struct accuracy_result {
     double *mean;       /* items * channels, channel by channel; without `exact` */
     double *half_width; /* (judged + told) * items, channel by channel; bounds included */
+    double *of_average; /* judged + told: half width of the mean over all items, without bounds */
     uint32_t *samples;  /* an item: all its samples */
     int missed;         /* items that are not done */
     double floor;       /* what `floor` came to, of channel 0 */
@@ -120,6 +128,10 @@ typedef struct accuracy_result {
 /* Samples until enough is done, or time or the user ends it. False, with *err, if memory is out.
  * The result is allocated in a. */
 bool accuracy_run(arena *a, const accuracy_desc *d, accuracy_result *out, lux_error *err);
+
+/* Half of the 95 % interval of the mean of so many independent values, <= SCRAMBLES, as above, and
+ * that mean. Less than two tell nothing: HUGE_VAL. */
+double accuracy_half_width(const double *values, int count, double *mean);
 
 /* Seconds since some moment, steadily growing. */
 double clock_seconds(void);

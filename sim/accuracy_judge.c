@@ -25,21 +25,58 @@ static double value_of(const accuracy_state *s, int channel, int item)
            (n > 0 ? s->total[at(s, channel, item)] / n : 0.0);
 }
 
+double accuracy_half_width(const double *values, int count, double *mean)
+{
+    double squares = 0.0;
+    *mean          = 0.0;
+    for (int r = 0; r < count; r++)
+        *mean += values[r] / count;
+    for (int r = 0; r < count; r++)
+        squares += (values[r] - *mean) * (values[r] - *mean);
+    return count < 2 ? HUGE_VAL : student_t[count - 1] * sqrt(squares / (count - 1) / count);
+}
+
+/* Adds what each scramble says of an item, times `weight`. False if it has no samples. */
+static bool add_scrambles(const accuracy_state *s, int channel, int item, double weight,
+                          double of[SCRAMBLES])
+{
+    const float *part = s->parts[(size_t)item * (size_t)s->spread + (size_t)channel].sum;
+    double n          = (double)s->r->samples[item] / s->scrambles;
+    for (int r = 0; n > 0.0 && r < s->scrambles; r++)
+        of[r] += weight * (double)part[r] / n;
+    return n > 0.0;
+}
+
 /* From the item's own scrambles alone. */
 static double own_half_width(const accuracy_state *s, int channel, int item)
 {
-    int scrambles     = s->scrambles;
-    const float *part = s->parts[(size_t)item * (size_t)s->spread + (size_t)channel].sum;
-    double n = (double)s->r->samples[item] / scrambles, mean = 0.0, squares = 0.0;
-    if (!(n > 0.0) || scrambles < 2)
-        return HUGE_VAL;
-    for (int r = 0; r < scrambles; r++)
-        mean += (double)part[r] / (n * scrambles);
-    for (int r = 0; r < scrambles; r++) {
-        double off = (double)part[r] / n - mean;
-        squares += off * off;
+    double of[SCRAMBLES] = { 0 }, ignored;
+    bool any             = add_scrambles(s, channel, item, 1.0, of);
+    return any ? accuracy_half_width(of, s->scrambles, &ignored) : HUGE_VAL;
+}
+
+/* Of the mean half width: by how much more the mean of many may be off than their spread tells, as
+ * each has stopped as soon as it seemed sure. Measured: 0.023 in a room, 0.034 with its lamp close
+ * to the ceiling, less in a bright cavity and by a window. */
+static const double stopping = 0.05;
+
+void accuracy_judge_average(const accuracy_state *s)
+{
+    int items = s->d->items;
+    for (int q = 0; q < s->spread; q++) {
+        double of[SCRAMBLES] = { 0 }, squares = 0.0, sum = 0.0, ignored;
+        for (int i = 0; i < items; i++) {
+            bool bounded = s->d->bound && q < s->judged;
+            double bound = bounded ? s->d->bound[at(s, q, i)] : 0.0;
+            double own   = s->r->half_width[at(s, q, i)] - bound;
+            add_scrambles(s, q, i, 1.0 / items, of);
+            squares += own * own;
+            sum += own;
+        }
+        double spread =
+            fmax(accuracy_half_width(of, s->scrambles, &ignored), sqrt(squares) / items);
+        s->r->of_average[q] = fmin(spread + stopping * sum / items, sum / items);
     }
-    return student_t[scrambles - 1] * sqrt(squares / (scrambles - 1) / scrambles);
 }
 
 static double floor_of(const accuracy_state *s, int channel)

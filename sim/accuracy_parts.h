@@ -53,4 +53,7 @@ typedef struct accuracy_state {
  */
 bool accuracy_judge(accuracy_state *s, lux_error *err);
 
+/* Half widths of the mean over all items, once all is judged: s->r->of_average. */
+void accuracy_judge_average(const accuracy_state *s);
+
 #endif

@@ -79,7 +79,7 @@ typedef struct grid_result {
     double *electric; /* lx, a sensor: what is not daylight, where a scene has both; NULL */
 
     double average, minimum, maximum, uniformity; /* lx, lx, lx; minimum / average, 0 if dark */
-    double average_half_width;                    /* lx: mean of half_width */
+    double average_half_width;                    /* lx: all errors that sensors share counted */
     double worst_half_width;    /* relative to max(illuminance, a tenth of the average) */
     double asked;               /* the accuracy that was asked for */
     int missed;                 /* sensors whose half width is beyond it */

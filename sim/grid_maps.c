@@ -10,7 +10,6 @@ static const double square_share = 0.25;  /* of the way from sensor to sensor */
 static const float square_side   = 0.05f; /* m, at most: of the squares where focused light is
                                              looked for */
 static const float least_side = 2e-3f;    /* m: none is made smaller below */
-static const double student_t = 2.1314;   /* 97.5 %, of SCRAMBLES - 1 degrees of freedom */
 
 static float side_of_squares(const study_grid *grid)
 {
@@ -39,16 +38,13 @@ static double focused_of(const grid_run_state *g, int q, int sensor, int set, bo
     return sum;
 }
 
-/* Half of the 95 % interval of their mean. */
-static double half_width_of(const double of[SCRAMBLES], double *mean)
+double grid_smoothed_by_square(const grid_run_state *g, int sensor)
 {
-    double square = 0.0;
-    *mean         = 0.0;
+    double sum = 0.0;
     for (int set = 0; set < SCRAMBLES; set++)
-        *mean += of[set] / SCRAMBLES;
-    for (int set = 0; set < SCRAMBLES; set++)
-        square += (of[set] - *mean) * (of[set] - *mean);
-    return student_t * sqrt(square / (SCRAMBLES - 1) / SCRAMBLES);
+        sum +=
+            focused_of(g, SAMPLED, sensor, set, false) - focused_of(g, SAMPLED, sensor, set, true);
+    return sum / SCRAMBLES;
 }
 
 /* Maps are as they are, one for each scramble: more samples do not tell more of them. */
@@ -61,7 +57,7 @@ static bool note_fixed(grid_run_state *g, arena *a, lux_error *err)
             double of[SCRAMBLES], ignored;
             for (int set = 0; set < SCRAMBLES; set++)
                 of[set] = focused_of(g, q, (int)k, set, false);
-            g->fixed[(size_t)q * n + k] = half_width_of(of, &ignored);
+            g->fixed[(size_t)q * n + k] = accuracy_half_width(of, SCRAMBLES, &ignored);
         }
     return g->fixed != NULL;
 }
@@ -91,7 +87,7 @@ static void know_light(const grid_run_state *g, known_light *to)
             off[set]  = of - focused_of(g, SAMPLED, (int)k, set, true);
             fine += of / SCRAMBLES;
         }
-        double noise = half_width_of(off, &smoothed);
+        double noise = accuracy_half_width(off, SCRAMBLES, &smoothed);
         smoothed     = fabs(smoothed);
         to[k]        = (known_light){ .all      = g->known[k] + g->rough[k] + fine,
                                       .smoothed = STEPS_SMOOTHED * smoothed,

@@ -67,6 +67,10 @@ typedef struct grid_run_state {
 /* Maps of the run, and g->fixed (grid_maps.c). */
 bool grid_make_maps(grid_run_state *g, arena *a, lux_error *err);
 
+/* lx, of all light as dimmed: by how much what maps of focused light know at a sensor would be less
+ * by squares of twice the area. */
+double grid_smoothed_by_square(const grid_run_state *g, int sensor);
+
 /* g->rough, which tells how good maps have to be. */
 bool grid_find_rough(grid_run_state *g, arena *a, lux_error *err);
 

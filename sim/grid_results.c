@@ -50,48 +50,19 @@ bool grid_make_results(arena *a, const grid_run_state *g, grid_result *out, lux_
     return make_layers(a, g, out, err) && make_moments(a, g, out, err);
 }
 
-/* What of the average is of each class. Sensors have samples of their own, whose errors are
- * independent; maps are common to all, and so are their errors. */
-static void take_classes(const grid_run_state *g, const accuracy_result *got, grid_result *r)
-{
-    size_t n = (size_t)r->sensor_count;
-    for (int c = 0; c < LIGHT_CLASSES; c++) {
-        double sum = 0.0, bounds = 0.0, square = 0.0;
-        bool shared = c != CLASS_DIRECT && (g->maps.indirect || g->maps.focused);
-        for (size_t k = 0; k < n; k++) {
-            if (c == CLASS_DIRECT) {
-                sum += g->known[k];
-                bounds += g->bound[k];
-            }
-            if (!got || g->channels.classes < 0)
-                continue;
-            size_t at = (size_t)(g->channels.classes + c) * n + k;
-            sum += got->mean[at];
-            if (shared)
-                bounds += got->half_width[at];
-            else
-                square += got->half_width[at] * got->half_width[at];
-        }
-        r->classes[c].average    = sum / (double)n;
-        r->classes[c].half_width = (bounds + sqrt(square)) / (double)n;
-    }
-}
-
 void grid_summarise(grid_result *r)
 {
-    double sum = 0.0, halves = 0.0;
+    double sum = 0.0;
     int over   = 0; /* sensors */
     r->minimum = HUGE_VAL;
     r->maximum = 0.0;
     for (int k = 0; k < r->sensor_count; k++) {
         sum += r->illuminance[k];
-        halves += r->half_width[k];
         r->minimum = fmin(r->minimum, r->illuminance[k]);
         r->maximum = fmax(r->maximum, r->illuminance[k]);
     }
-    r->average            = sum / r->sensor_count;
-    r->average_half_width = halves / r->sensor_count;
-    r->uniformity         = r->average > 0.0 ? r->minimum / r->average : 0.0;
+    r->average    = sum / r->sensor_count;
+    r->uniformity = r->average > 0.0 ? r->minimum / r->average : 0.0;
     for (int k = 0; k < r->sensor_count; k++) {
         double against      = fmax(r->illuminance[k], 0.1 * r->average);
         double ratio        = r->half_width[k] > 0.0 ? r->half_width[k] / against : 0.0;
@@ -214,22 +185,27 @@ bool grid_is_smoothed(const grid_run_state *g, const accuracy_result *got)
     return over > 0;
 }
 
-/* What the plan left out may be that far off, of max(value, a tenth of the average). */
-static void widen(const grid_run_state *g, const double *e, double *half_width)
+/* What the plan left out may be that far off, of max(value, a tenth of the average); by how much
+ * that is on average. */
+static double widen(const grid_run_state *g, const double *e, double *half_width)
 {
     int n          = g->r->sensor_count;
-    double average = 0.0;
+    double average = 0.0, added = 0.0;
     for (int k = 0; k < n; k++)
         average += e[k] / n;
-    for (int k = 0; k < n; k++)
-        half_width[k] += g->o->bound * fmax(e[k], 0.1 * average);
+    for (int k = 0; k < n; k++) {
+        double more = g->o->bound * fmax(e[k], 0.1 * average);
+        half_width[k] += more;
+        added += more / n;
+    }
+    return added;
 }
 
 static void widen_all(const grid_run_state *g, grid_result *r)
 {
     if (g->o->bound == 0.0)
         return;
-    widen(g, r->illuminance, r->half_width);
+    r->average_half_width += widen(g, r->illuminance, r->half_width);
     for (int l = 0; l < r->layer_count; l++)
         widen(g, r->layers[l].illuminance, r->layers[l].half_width);
     for (int h = 0; h < r->moment_count; h++)
@@ -245,9 +221,49 @@ static double share_of_layer(const grid_result *r, int l, size_t k)
     return all > 0.0 ? r->layers[l].illuminance[k] / all : 1.0;
 }
 
+static double mean_bound(const grid_run_state *g)
+{
+    double sum = 0.0;
+    for (int k = 0; k < g->r->sensor_count; k++)
+        sum += g->bound[k];
+    return sum / g->r->sensor_count;
+}
+
+/* How far off what maps smooth may make the average: `focused`, by squares about sensors; or else
+ * by cells of surfaces. */
+static double mean_smoothed(const grid_run_state *g, const accuracy_result *got, bool focused)
+{
+    double sum = 0.0;
+    for (int k = 0; k < g->r->sensor_count && g->channels.smoothed >= 0; k++) {
+        double of_squares = g->maps.focused ? grid_smoothed_by_square(g, k) : 0.0;
+        double all        = mean_of(g, got, g->channels.smoothed, (size_t)k);
+        sum += STEPS_SMOOTHED * fabs(focused ? of_squares : all - of_squares);
+    }
+    return sum / g->r->sensor_count;
+}
+
+/* What of the average is of each class. */
+static void take_classes(const grid_run_state *g, const accuracy_result *got, grid_result *r)
+{
+    size_t n = (size_t)r->sensor_count;
+    for (size_t k = 0; k < n; k++)
+        r->classes[CLASS_DIRECT].average += g->known[k] / (double)n;
+    r->classes[CLASS_DIRECT].half_width = mean_bound(g);
+    if (!got || g->channels.classes < 0)
+        return;
+    for (int c = 0; c < LIGHT_CLASSES; c++) {
+        for (size_t k = 0; k < n; k++)
+            r->classes[c].average += mean_of(g, got, g->channels.classes + c, k) / (double)n;
+        r->classes[c].half_width += got->of_average[g->channels.classes + c];
+    }
+    r->classes[CLASS_REFLECTED].half_width += mean_smoothed(g, got, false);
+    r->classes[CLASS_FOCUSED].half_width += mean_smoothed(g, got, true);
+}
+
 void grid_take_results(const grid_run_state *g, const accuracy_result *got, grid_result *r)
 {
     const grid_channels *c = &g->channels;
+    double smoothed        = 0.0;
     take_classes(g, got, r);
     for (size_t k = 0; k < (size_t)r->sensor_count; k++) {
         double all = mean_of(g, got, SAMPLED, k);
@@ -260,12 +276,14 @@ void grid_take_results(const grid_run_state *g, const accuracy_result *got, grid
             r->half_width[k]  = half_width_of(g, got, SAMPLED, k);
             take_layers(g, got, k);
         }
-        double smoothed = got && c->smoothed >= 0 ? mean_of(g, got, c->smoothed, k) : 0.0;
-        r->half_width[k] += STEPS_SMOOTHED * fabs(smoothed);
+        double off =
+            c->smoothed >= 0 ? STEPS_SMOOTHED * fabs(mean_of(g, got, c->smoothed, k)) : 0.0;
+        smoothed += off / r->sensor_count;
+        r->half_width[k] += off;
         for (int l = 0; l < r->layer_count; l++)
-            r->layers[l].half_width[k] += STEPS_SMOOTHED * fabs(smoothed) * share_of_layer(r, l, k);
+            r->layers[l].half_width[k] += off * share_of_layer(r, l, k);
         for (int h = 0; h < g->moments; h++)
-            r->moments[h].half_width[k] += STEPS_SMOOTHED * fabs(smoothed);
+            r->moments[h].half_width[k] += off;
         r->indirect[k]    = fmax(r->illuminance[k] - r->direct[k], 0.0);
         r->illuminance[k] = r->direct[k] + r->indirect[k];
         if (r->outside)
@@ -273,6 +291,7 @@ void grid_take_results(const grid_run_state *g, const accuracy_result *got, grid
         if (r->electric)
             r->electric[k] += mean_of(g, got, c->electric, k);
     }
-    r->smoothed = got && c->smoothed >= 0;
+    r->smoothed           = got && c->smoothed >= 0;
+    r->average_half_width = mean_bound(g) + (got ? got->of_average[SAMPLED] : 0.0) + smoothed;
     widen_all(g, r);
 }

@@ -397,7 +397,7 @@ void path_follow(path_tracer *t)
     for (bool first = true; t->alive > 0; first = false, t->depth++) {
         go_on(t);
         path_add_glow(t);
-        if (first)
+        if (first || has_narrow(s) || has_hollow(s))
             path_note_met(t);
         if (!o->bounce && !has_hollow(s))
             return;

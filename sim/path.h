@@ -56,7 +56,7 @@ typedef struct path_bundle {
     path_sums *daylight; /* NULL; or what is of suns and skies */
     float *smoothed;  /* NULL; or of PATHS: W/m^2, as luminance, by which it would be less if maps
                          were coarser by a step */
-    float met[PATHS]; /* 1 if the first ray met a surface that gives light on, else 0 */
+    float met[PATHS]; /* 1 if a surface that gives light back was seen, else 0 */
 } path_bundle;
 
 typedef struct path_options {

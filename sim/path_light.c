@@ -307,30 +307,24 @@ void path_add_lamps_met(path_tracer *t)
     }
 }
 
-static vmask is_mirror_alone(const path_tracer *t, int k)
-{
-    vmask only = t->active[k] & ((t->does[k] & (DOES_ASK | DOES_HOLLOW)) == 0);
-    vint plane = vsplat_int(-1);
-    int i      = k * LANES;
-    vhit hit   = { .instance = vkeep_int(only, vload_int(t->instance + i)),
-                   .triangle = vkeep_int(only, vload_int(t->triangle + i)) };
-    if (vany(only))
-        plane = mirrors_plane(t->s->mirror_images, &hit, only);
-    return only & (plane >= 0);
-}
-
-/* Which paths see something that could give light on. */
+/* Which paths see something that could give light back: matt or gloss, behind glass or in a mirror,
+ * too. Glass and mirrors themselves do not count: what they show of lamps is found by other means,
+ * or said to be left to chance. */
 void path_note_met(path_tracer *t)
 {
     for (int k = 0; k < packets_of(t); k++) {
+        vint id    = vload_int(t->id + k * LANES);
+        vmask open = t->active[k] & (vgather(t->b->met, id) == 0.0f);
+        if (!vany(open))
+            continue;
         vint which  = t->at[k].material;
-        vfloat back = vrgb_luminance(materials_reflectance(t->s->materials, which, t->active[k]));
-        vmask gives = t->active[k] & (back > 0.0f);
-        if (has_narrow(t->s) || has_hollow(t->s))
-            gives = gives | (t->active[k] & ((t->does[k] & (DOES_NARROW | DOES_HOLLOW)) != 0));
-        if (has_mirror_images(t->s)) /* what images give by a plane mirror is all that it gives */
-            gives = gives & ~is_mirror_alone(t, k);
+        vfloat back = vrgb_luminance(materials_reflectance(t->s->materials, which, open));
+        vmask gives = open & (back > 0.0f);
+        if (has_narrow(t->s) || has_hollow(t->s)) {
+            vmask more = open & ((t->does[k] & (DOES_NARROW | DOES_AROUND)) != 0);
+            gives      = (gives | more) & ((t->does[k] & DOES_ASK) != 0);
+        }
         for (int bits = vbits(gives); bits; bits &= bits - 1)
-            t->b->met[t->id[k * LANES + __builtin_ctz((unsigned)bits)]] = 1.0f;
+            t->b->met[lane(id, __builtin_ctz((unsigned)bits))] = 1.0f;
     }
 }

@@ -273,7 +273,8 @@ void path_add_lamps_met(path_tracer *t);
 /* What shines by itself where the paths have come to. */
 void path_add_glow(path_tracer *t);
 
-/* Which paths see something that could give light on. */
+/* Which paths see something that could give light back; once more at each step where there is glass
+ * that they go through, or mirrors. */
 void path_note_met(path_tracer *t);
 
 #endif

@@ -71,3 +71,11 @@ void grid_of_scene(arena *a, const scene *s, int grid, const run_options *o, gri
     if (!grid_run(a, s, &s->study->grids[grid], &options, out, &err))
         fail_msg("%s", err.text);
 }
+
+double independent_half_width(const grid_result *r)
+{
+    double squares = 0.0;
+    for (int k = 0; k < r->sensor_count; k++)
+        squares += r->half_width[k] * r->half_width[k];
+    return sqrt(squares) / r->sensor_count;
+}

@@ -15,4 +15,8 @@ const scene *scene_of_text(arena *a, const char *yaml);
 /* Runs one of its grids; zeros in *o are defaults. */
 void grid_of_scene(arena *a, const scene *s, int grid, const run_options *o, grid_result *out);
 
+/* lx: that of the average of sensors whose errors are independent, with nothing for how they stop:
+ * closer than grid_result.average_half_width. */
+double independent_half_width(const grid_result *r);
+
 #endif

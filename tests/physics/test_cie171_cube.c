@@ -6,6 +6,7 @@
  * are alike, so that one is measured. Sensors on a face are 0.2 m apart: the midpoint rule makes
  * the mean of the direct light 6.1e-4 too large (104.2305 lx).
  */
+#include "tests/folder.h"
 #include "tests/gltf_text.h"
 #include "tests/lab.h"
 #include "tests/test.h"
@@ -40,9 +41,8 @@ static void cube(double rho, double total, double accuracy)
          * number; from 95 % to 99.9 %, t of 15 degrees of freedom. The noise of maps is common to
          * all: 1 %, where it was 0.4 % at most with five seeds, and is stated as 2 %. */
         double stretch = 4.0728 / 2.1314;
-        double off     = o.transport == TRANSPORT_MAPS
-                             ? 0.01 * (r.average - direct)
-                             : stretch * r.average_half_width / sqrt((double)r.sensor_count);
+        double off     = o.transport == TRANSPORT_MAPS ? 0.01 * (r.average - direct)
+                                                       : stretch * independent_half_width(&r);
         assert_near(direct, 104.1667, 7e-4);
         assert_true(fabs(r.average - total) <= 7e-4 * total + off);
         assert_true(fabs(reflected - (double)(float)rho * total) <= 7e-4 * total + off);

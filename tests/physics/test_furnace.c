@@ -76,7 +76,7 @@ static double mean_over_walls(double rho, const char *lamp, double accuracy, dou
         grid_result r;
         grid_of_scene(&a, s, g, &(run_options){ .accuracy = accuracy, .seed = 7 }, &r);
         sum += r.average / 6.0;
-        *half_width += r.average_half_width / 6.0 / sqrt((double)r.sensor_count); /* independent */
+        *half_width += independent_half_width(&r) / 6.0;
     }
     arena_clear(&a);
     return sum;

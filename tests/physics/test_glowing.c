@@ -4,6 +4,7 @@
  * Each sensor must lie within its interval, and be as sure as asked for: a small light that is only
  * met by chance would be neither.
  */
+#include "tests/folder.h"
 #include "tests/gltf_text.h"
 #include "tests/lab.h"
 #include "tests/test.h"
@@ -410,7 +411,7 @@ static void square_balances(const char *lamps, double more)
         assert_true(grid_run(&l.a, made, &made->study->grids[g], &o, &r, NULL));
         double area = g < 2 ? 6.0 : g < 4 ? 6.0 : 4.0;
         flux += r.average * area;
-        half = hypot(half, r.average_half_width * area / sqrt(r.sensor_count));
+        half = hypot(half, independent_half_width(&r) * area);
     }
     /* Cells of 0.2 m: 1e-3, as in test_furnace.c */
     double want = lumens / (1.0 - rho);

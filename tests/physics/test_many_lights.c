@@ -1,6 +1,7 @@
 /* tests/physics/test_many_lights.c -- many lamps: what of them is hidden behind an edge, and the
  * balance of energy in rooms that give light back, for every kind.
  */
+#include "tests/folder.h"
 #include "tests/gltf_text.h"
 #include "tests/lab.h"
 #include "tests/shapes.h"
@@ -92,7 +93,7 @@ static void balances(const char *lamps, double flux, double rho)
         if (!grid_run(&l.a, s, &s->study->grids[g], &o, &r, &err))
             fail_msg("%s", err.text);
         mean += r.average / 6.0;
-        half = hypot(half, r.average_half_width / 6.0 / sqrt(r.sensor_count));
+        half = hypot(half, independent_half_width(&r) / 6.0);
     }
     double want = flux / (96.0 * (1.0 - (double)(float)rho));
     if (!(fabs(mean - want) <= 2e-3 * want + 2.0 * half)) /* cells of 0.25 m: 2e-3 */

@@ -43,7 +43,7 @@ static double mean_factor(const vec3 emission[ROOM_MATERIALS], dvec3 size, study
     for (int k = 0; k < r.sensor_count; k++)
         assert_near(r.indirect[k], 0.0, 1e-6); /* black walls pass nothing on */
     double unit = M_PI * LUMENS_PER_WATT, mean = r.average / unit;
-    *half = r.average_half_width / unit / sqrt((double)r.sensor_count);
+    *half = independent_half_width(&r) / unit;
     arena_clear(&a);
     return mean;
 }

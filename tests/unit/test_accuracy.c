@@ -80,6 +80,28 @@ TEST(a_half_width_is_student_s_of_the_scrambles_means)
     arena_clear(&a);
 }
 
+/* Two items whose errors are opposite: of the mean of both the scrambles show none, and what is
+ * told is what independent errors would leave. Where they are the same, all of it is left. */
+static float opposed(sample_id id) { return (float)(17.5 + (id.item ? -off(id) : off(id))); }
+
+TEST(an_average_is_as_sure_as_what_items_share_lets_it_be)
+{
+    static const double stopping = 0.05;
+    static const struct {
+        float (*value)(sample_id id);
+        double half; /* units */
+    } of[] = { { opposed, M_SQRT1_2 + stopping }, { by_scramble, 1.0 } };
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+        arena a           = { 0 };
+        fake f            = { .value = of[i].value };
+        accuracy_desc d   = desc_of(&f, 2);
+        d.accuracy        = 0.2;
+        accuracy_result r = run(&a, &d);
+        assert_near(r.of_average[0], of[i].half * unit_half, 1e-4);
+        arena_clear(&a);
+    }
+}
+
 /* Means 10, 10, 20; half widths 2, 0, 1 units: relative 0.2, 0, 0.05 units. Squares 0.04, 0, 0.0025
  * of mean 0.0425 / 3: items 1 and 2 are below, and take the mean of both. */
 static float three_spreads(sample_id id)
@@ -539,6 +561,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_half_width_is_student_s_of_the_scrambles_means),
+        cmocka_unit_test(an_average_is_as_sure_as_what_items_share_lets_it_be),
         cmocka_unit_test(an_item_is_not_taken_to_be_much_surer_than_the_others),
         cmocka_unit_test(what_is_known_exactly_counts_in_the_accuracy_and_not_in_the_mean),
         cmocka_unit_test(what_is_left_out_widens_the_interval_by_its_bound),

@@ -37,7 +37,7 @@ static study_grid asking(double average, double minimum, double maximum, double 
 }
 static const double none = (double)NAN;
 
-TEST(an_average_is_told_by_the_mean_half_width)
+TEST(an_average_is_told_by_its_own_half_width)
 {
     grid_requirement r = judged(asking(99.5, none, none, none));
     assert_true(r.met && !r.decided);
@@ -83,7 +83,7 @@ TEST(a_uniformity_is_told_by_minimum_and_average)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_average_is_told_by_the_mean_half_width),
+        cmocka_unit_test(an_average_is_told_by_its_own_half_width),
         cmocka_unit_test(a_minimum_is_told_by_intervals_that_hold_all_at_once),
         cmocka_unit_test(a_maximum_asks_for_less),
         cmocka_unit_test(a_uniformity_is_told_by_minimum_and_average),

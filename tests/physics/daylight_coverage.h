@@ -42,6 +42,7 @@ static inline coverage coverage_of(lab *l, const char *yaml, double accuracy, in
         arena run = { 0 };
         assert_true(grid_run(&run, s, &of->grids[0], &o, &r, NULL));
         assert_null(r.left_to_chance);
+        assert_int_equal(r.end, RUN_DONE);
         for (int h = 0; h < (count ? count : 1); h++) {
             const double *got  = count ? r.moments[h].illuminance : r.illuminance;
             const double *half = count ? r.moments[h].half_width : r.half_width;

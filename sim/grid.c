@@ -151,7 +151,7 @@ bool grid_find_rough(grid_run_state *g, arena *a, lux_error *err)
     bool good       = accuracy_run(a, &d, &got, err);
     g->maps.focused = focused;
     if (good)
-        g->rough = got.mean + (size_t)SAMPLED * (size_t)g->r->sensor_count;
+        g->rough = got.mean;
     return good;
 }
 

@@ -43,6 +43,7 @@ bool grid_make_results(arena *a, const grid_run_state *g, grid_result *out, lux_
                        &out->indirect,
                        &out->half_width,
                        g->channels.outside >= 0 ? &out->outside : NULL,
+                       g->channels.smoothed >= 0 ? &out->smooth : NULL,
                        g->channels.electric >= 0 ? &out->electric : NULL };
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         if (all[i] && !(*all[i] = arena_array(a, double, (size_t)out->sensor_count, err)))
@@ -261,7 +262,9 @@ void grid_take_results(const grid_run_state *g, const accuracy_result *got, grid
             take_layers(g, got, k);
         }
         double smoothed = got && c->smoothed >= 0 ? mean_of(g, got, c->smoothed, k) : 0.0;
-        r->half_width[k] += STEPS_SMOOTHED * fabs(smoothed);
+        if (r->smooth)
+            r->smooth[k] = STEPS_SMOOTHED * fabs(smoothed);
+        r->half_width[k] += g->o->pilot ? 0.0 : STEPS_SMOOTHED * fabs(smoothed);
         for (int l = 0; l < r->layer_count; l++)
             r->layers[l].half_width[k] += STEPS_SMOOTHED * fabs(smoothed) * share_of_layer(r, l, k);
         for (int h = 0; h < g->moments; h++)

@@ -7,7 +7,7 @@
 
 #include <stdio.h>
 
-static const double sooner = 1.3; /* times, at least */
+static const double sooner = 1.2; /* times, at least */
 
 /* Why paths are taken without a trial; NULL: there is no reason. */
 static const char *plain_reason(const plan_facts *f, const plan *p)

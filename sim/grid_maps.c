@@ -12,6 +12,8 @@ bool grid_make_maps(grid_run_state *g, arena *a, lux_error *err)
         return false;
     for (int t = 0; t < g->o->threads; t++)
         path_use_maps(g->threads[t].paths, g->maps.indirect, g->maps.focused);
+    for (int t = 0; g->o->pilot && scene_focuses(g->s) && t < g->o->threads; t++)
+        path_leave_focused(g->threads[t].paths);
     return true;
 }
 
@@ -34,9 +36,13 @@ bool grid_refine_maps(grid_run_state *g, arena *a, accuracy_result *got, bool *f
     *finer = own && ended && g->refined < MOST_REFINED && has_time(g) && grid_is_smoothed(g, got);
     if (!*finer)
         return true;
-    double accuracy = g->r->asked / (double)(2 << g->refined++);
-    int64_t before  = illumination_map_figures(g->maps.indirect).particles;
-    const illumination_map *map;
+    const illumination_map *map = g->maps.indirect;
+    double accuracy             = g->r->asked / (double)(2 << g->refined++);
+    int64_t before              = illumination_map_figures(map).particles;
+    *finer                      = illumination_map_calls_for(map, accuracy, NULL) >
+             illumination_map_calls_for(map, g->r->asked, NULL);
+    if (!*finer)
+        return true;
     if (!light_maps_indirect(a, g->s, g->o, accuracy, &map, NULL, err)) {
         bool stopped = err->code == ERR_INTERRUPTED;
         *finer       = false;

@@ -43,6 +43,7 @@ bool grid_make_results(arena *a, const grid_run_state *g, grid_result *out, lux_
                        &out->indirect,
                        &out->half_width,
                        g->channels.outside >= 0 ? &out->outside : NULL,
+                       g->channels.smoothed >= 0 ? &out->smooth : NULL,
                        g->channels.electric >= 0 ? &out->electric : NULL };
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         if (all[i] && !(*all[i] = arena_array(a, double, (size_t)out->sensor_count, err)))
@@ -315,7 +316,10 @@ void grid_take_results(const grid_run_state *g, const accuracy_result *got, grid
             r->half_width[k]  = half_width_of(g, got, SAMPLED, k);
             take_layers(g, got, k);
         }
-        widen_by_smoothing(g, got, r, k);
+        if (r->smooth)
+            r->smooth[k] = smoothed_of(g, got, SAMPLED, k, 1.0);
+        if (!g->o->pilot)
+            widen_by_smoothing(g, got, r, k);
         r->indirect[k]    = fmax(r->illuminance[k] - r->direct[k], 0.0);
         r->illuminance[k] = r->direct[k] + r->indirect[k];
         if (r->outside)

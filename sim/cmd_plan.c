@@ -44,8 +44,9 @@ const command command_plan = {
         "For its grids, or its views if it has no grids. An effect is off where it is provably\n"
         "without effect, or where a bound on what it adds is small: all bounds together stay\n"
         "below a fifth of the accuracy asked for, and are added to half widths. --no and\n"
-        "--only, here as for grid, render and daylight, have the last word. Simulates nothing,\n"
-        "but for direct light in rooms that are all but black.\n",
+        "--only, here as for grid, render and daylight, have the last word. Simulates no more\n"
+        "than direct light in rooms that are all but black, and a few samples by paths and by\n"
+        "maps, which tell by the rays that they take which is there sooner.\n",
     .options = " --accuracy --variant --threads --direct-only --groups --transport --no --only "
                "--json --quiet ",
     .run     = plan_command,

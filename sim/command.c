@@ -30,7 +30,10 @@ plan_options command_plan_options(const command_context *c, bool views)
                            .no          = l->off,
                            .only        = l->only,
                            .has_only    = l->has_only,
-                           .transport   = l->maps ? TRANSPORT_MAPS : l->transport };
+                           .transport   = l->maps ? TRANSPORT_MAPS : l->transport,
+                           .seed        = l->seed,
+                           .threads     = command_threads(c),
+                           .progress    = c->progress };
 }
 
 /* What the first scene told of holds for the second. */

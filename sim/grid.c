@@ -53,11 +53,13 @@ static bool make_threads(grid_run_state *g, arena *a, lux_error *err)
 }
 
 /* Whether daylight and other light are told apart. */
-static bool splits(const grid_run_state *g)
+static bool splits(const scene *s)
 {
-    return g->s->moment_count > 0 && !g->moments && (scene_lamp_count(g->s) > 0 || g->s->glows) &&
-           g->s->study->maintenance != 1.0;
+    return s->moment_count > 0 && !s->by_moment && (scene_lamp_count(s) > 0 || s->glows) &&
+           s->study->maintenance != 1.0;
 }
+
+bool grid_needs_paths(const scene *s) { return (s->by_moment && s->moment_count > 0) || splits(s); }
 
 /* Where the channels stand. */
 static grid_channels lay_out(const grid_run_state *g)
@@ -81,7 +83,7 @@ static grid_channels lay_out(const grid_run_state *g)
         c.smoothed = c.count++;
     if (g->o->outside)
         c.outside = c.count++;
-    if (splits(g))
+    if (splits(g->s))
         c.electric = c.count++;
     return c;
 }
@@ -151,8 +153,17 @@ bool grid_find_rough(grid_run_state *g, arena *a, lux_error *err)
     bool good       = accuracy_run(a, &d, &got, err);
     g->maps.focused = focused;
     if (good)
-        g->rough = got.mean + (size_t)SAMPLED * (size_t)g->r->sensor_count;
+        g->rough = got.mean;
     return good;
+}
+
+static int64_t rays_so_far(const grid_run_state *g)
+{
+    int64_t rays = g->maps.rays;
+    for (int t = 0; t < g->o->threads; t++)
+        rays += direct_sensor_rays(g->threads[t].direct) + sun_rays(g->threads[t].suns) +
+                path_rays(g->threads[t].paths);
+    return rays;
 }
 
 static bool sample_rest(arena *a, arena *scratch, grid_run_state *g, grid_result *r, lux_error *err)
@@ -188,8 +199,9 @@ static bool run(arena *a, arena *scratch, grid_run_state *g, grid_result *out, l
         return interrupted(out, err);
     if (!grid_make_maps(g, scratch, err))
         return err->code == ERR_INTERRUPTED ? interrupted(out, err) : false;
-    bool lit      = scene_is_lit(s);
-    bool reflects = s->reflects && lit && !g->o->direct_only;
+    out->known_rays = rays_so_far(g);
+    bool lit        = scene_is_lit(s);
+    bool reflects   = s->reflects && lit && !g->o->direct_only;
     if (s->glows || s->sky_count > 0 || g->disks || reflects || atomic_load(&g->lamps_left))
         return sample_rest(a, scratch, g, out, err);
     grid_take_results(g, NULL, out);
@@ -207,6 +219,29 @@ static bool make_known(arena *a, grid_run_state *g, lux_error *err)
     g->sun_share = g->sun_known ? arena_array(a, double, n *suns, err) : NULL;
     return g->sun_share != NULL;
 }
+
+/* Keeps so many sensors, one of each so many, though not always the same of a row. */
+static bool thin_out(arena *a, int most, grid_result *r, lux_error *err)
+{
+    const double golden = 0.6180339887498949;
+    if (most == 0 || r->sensor_count <= most)
+        return true;
+    grid_sensor *sensors = arena_array(a, grid_sensor, (size_t)most, err);
+    int *cell            = sensors ? arena_array(a, int, (size_t)most, err) : NULL;
+    double each          = (double)r->sensor_count / most;
+    for (int k = 0; cell && k < most; k++) {
+        int from   = (int)((k + fmod(k * golden, 1.0)) * each);
+        sensors[k] = r->sensors[from];
+        cell[k]    = r->cell[from];
+    }
+    r->sensors      = sensors;
+    r->cell         = cell;
+    r->sensor_count = most;
+    return cell != NULL;
+}
+
+static const char lost_to_maps[] = "some light that maps are to find comes where they have no "
+                                   "cells, or from glowing pictures";
 
 bool grid_run(arena *a, const scene *s, const study_grid *grid, const run_options *o,
               grid_result *out, lux_error *err)
@@ -227,15 +262,15 @@ bool grid_run(arena *a, const scene *s, const study_grid *grid, const run_option
                                       .bounces       = o->bounces,
                                       .roulette_from = o->roulette_from },
                          .seed    = seed };
-    if (g.moments || splits(&g)) /* maps tell of all light together */
+    if (grid_needs_paths(s))
         own.transport = TRANSPORT_PATH;
     for (int i = 0; i < s->sun_count; i++)
         g.disks |= light_has_extent(s->lights[scene_lamp_count(s) + i]);
 
-    bool good           = grid_sensors(a, s, grid, out, err);
-    out->asked          = !isnan(o->accuracy)          ? o->accuracy
-                          : !isnan(s->study->accuracy) ? s->study->accuracy
-                                                       : GRID_DEFAULT_PERCENT / 100.0;
+    bool good  = grid_sensors(a, s, grid, out, err) && thin_out(a, o->most_sensors, out, err);
+    out->asked = !isnan(o->accuracy)          ? o->accuracy
+                 : !isnan(s->study->accuracy) ? s->study->accuracy
+                                              : GRID_DEFAULT_PERCENT / 100.0;
     out->left_to_chance = scene_left_to_chance(s, o->direct_only);
     g.channels          = lay_out(&g);
     good = good && grid_make_results(a, &g, out, err) && make_known(&scratch, &g, err) &&
@@ -243,15 +278,10 @@ bool grid_run(arena *a, const scene *s, const study_grid *grid, const run_option
            grid_all_finite(s, out, err);
     if (good) {
         grid_summarise(out);
-        out->rays        = g.maps.rays;
+        out->rays        = rays_so_far(&g);
         out->left_out_lm = g.maps.left_out_lm;
         if (g.maps.matters && !out->left_to_chance)
-            out->left_to_chance =
-                "some light that maps are to find comes where they have no cells, "
-                "or from glowing pictures";
-        for (int t = 0; t < o->threads; t++)
-            out->rays += direct_sensor_rays(g.threads[t].direct) + sun_rays(g.threads[t].suns) +
-                         path_rays(g.threads[t].paths);
+            out->left_to_chance = lost_to_maps;
         out->seconds = clock_seconds() - begun;
     }
     arena_clear(&scratch);

@@ -37,6 +37,9 @@ typedef struct run_options {
     int bounces;        /* reflections at most, >= 0: what comes after more is left out */
     int roulette_from;  /* reflections before which no path is ended by chance */
     int only_samples;   /* a sensor or pixel, neither fewer nor more; 0: as accuracy asks */
+    bool pilot;         /* a trial (plan_pilot.c): focused light, for which there are maps in any
+                           case, is left out, and half widths are without what maps smooth */
+    int most_sensors;   /* of a grid, spread over it; 0: all */
     double bound;       /* relative: how far off what the plan left out may make a result */
     progress *progress; /* may be NULL */
 } run_options;
@@ -76,6 +79,7 @@ typedef struct grid_result {
         double average, half_width; /* lx, of the grid's average */
     } classes[LIGHT_CLASSES];
     double *outside;  /* lx, a sensor, if asked for: of `indirect` */
+    double *smooth;   /* lx, a sensor: what illumination maps may smooth; NULL: there are none */
     double *electric; /* lx, a sensor: what is not daylight, where a scene has both; NULL */
 
     double average, minimum, maximum, uniformity; /* lx, lx, lx; minimum / average, 0 if dark */
@@ -90,7 +94,7 @@ typedef struct grid_result {
     run_end end;                /* why it ended; what is here is complete all the same */
     const char *left_to_chance; /* why the intervals are not valid; NULL: they are */
     double seconds;
-    int64_t rays;
+    int64_t rays, known_rays; /* and those of them that no number of samples adds to */
 } grid_result;
 
 enum { GRID_DEFAULT_PERCENT = 2 };
@@ -98,6 +102,10 @@ enum { GRID_DEFAULT_PERCENT = 2 };
 /* The sensors of a grid in a, in rows and columns, but for those of a plane that lie inside
  * something solid (inside.h). False, with *err, for a bad points file, or if no sensor is left. */
 bool grid_sensors(arena *a, const scene *s, const study_grid *g, grid_result *out, lux_error *err);
+
+/* Whether its grids go by paths whatever is asked for: maps tell of all light together, moments of
+ * a series, or daylight and other light that has another maintenance, are told apart. */
+bool grid_needs_paths(const scene *s);
 
 /* Runs grid g of the scene's study. False, with *err, if memory is out, a points file is bad, or
  * (ERR_INTERRUPTED) the user stopped it before there was anything to tell. */

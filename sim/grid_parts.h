@@ -42,6 +42,20 @@ typedef struct thread_scratch {
     float *of_layer, *direct_of_layer; /* lx, of one sample, one a group */
 } thread_scratch;
 
+/* Squares about sensors, as they are fitted to what their light calls for. */
+typedef struct grid_squares {
+    map_sensors of;
+    float *side, *allowed;
+} grid_squares;
+
+/* What maps know of a square's light, lx. */
+typedef struct grid_focus {
+    double lux;
+    double smoothed; /* how far off that may make it, */
+    double own;      /* and as the square alone tells; */
+    double doubt;    /* what of that may be noise */
+} grid_focus;
+
 typedef struct grid_run_state {
     double begun; /* s, on clock_seconds() */
     const scene *s;
@@ -52,9 +66,10 @@ typedef struct grid_run_state {
     int moments;           /* of a series; else 0 */
     double *known, *bound; /* lx: of each layer, or of all; [layer * sensors + sensor] */
     double *fixed;         /* lx: half widths that are of maps alone, in the same order; NULL */
+    grid_focus *focus;     /* of focused light, in the same order; NULL */
     double *sun_known;     /* lx: of each sun, [sun * sensors + sensor]; NAN: samples add nothing */
     double *sun_share;     /* what of it is seen */
-    const double *rough;   /* lx, a sensor: see grid_find_rough() */
+    const double *rough;   /* lx, in the same order: see grid_find_rough() */
     light_maps maps;
     int refined; /* times */
     bool disks;  /* some sun is more than a point */
@@ -67,9 +82,10 @@ typedef struct grid_run_state {
 /* Maps of the run, and g->fixed (grid_maps.c). */
 bool grid_make_maps(grid_run_state *g, arena *a, lux_error *err);
 
-/* lx, of all light as dimmed: by how much what maps of focused light know at a sensor would be less
- * by squares of twice the area. */
-double grid_smoothed_by_square(const grid_run_state *g, int sensor);
+/* Squares of the first map of focused light, in a; then maps, until they are good enough or take
+ * too long: g->maps.focused, g->fixed, g->focus (grid_focus.c). */
+bool grid_squares_new(const grid_run_state *g, arena *a, grid_squares *q, lux_error *err);
+bool grid_grow_focused(grid_run_state *g, arena *a, grid_squares *q, lux_error *err);
 
 /* g->rough, which tells how good maps have to be. */
 bool grid_find_rough(grid_run_state *g, arena *a, lux_error *err);

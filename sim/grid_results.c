@@ -43,6 +43,7 @@ bool grid_make_results(arena *a, const grid_run_state *g, grid_result *out, lux_
                        &out->indirect,
                        &out->half_width,
                        g->channels.outside >= 0 ? &out->outside : NULL,
+                       g->channels.smoothed >= 0 ? &out->smooth : NULL,
                        g->channels.electric >= 0 ? &out->electric : NULL };
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         if (all[i] && !(*all[i] = arena_array(a, double, (size_t)out->sensor_count, err)))
@@ -166,6 +167,21 @@ static bool found_nothing(const grid_run_state *g, const accuracy_result *got, s
     return nothing;
 }
 
+/* lx: how far off what cells of surfaces smooth may make all light as dimmed at sensor k. */
+static double smoothed_by_cells(const grid_run_state *g, const accuracy_result *got, size_t k)
+{
+    int c = g->channels.smoothed;
+    return c < 0 ? 0.0 : STEPS_SMOOTHED * fabs(mean_of(g, got, c, k));
+}
+
+/* The same of channel q, which has `share` of all light, with what squares smooth. */
+static double smoothed_of(const grid_run_state *g, const accuracy_result *got, int q, size_t k,
+                          double share)
+{
+    double squares = g->focus ? g->focus[(size_t)q * (size_t)g->r->sensor_count + k].smoothed : 0.0;
+    return squares + share * smoothed_by_cells(g, got, k);
+}
+
 bool grid_is_smoothed(const grid_run_state *g, const accuracy_result *got)
 {
     size_t n    = (size_t)g->r->sensor_count;
@@ -174,8 +190,7 @@ bool grid_is_smoothed(const grid_run_state *g, const accuracy_result *got)
     for (int pass = 0; pass < 2 && g->channels.smoothed >= 0; pass++)
         for (size_t k = 0; k < n; k++) {
             double all  = known_of(g, SAMPLED, k) + mean_of(g, got, SAMPLED, k);
-            double half = half_width_of(g, got, SAMPLED, k) +
-                          STEPS_SMOOTHED * fabs(mean_of(g, got, g->channels.smoothed, k));
+            double half = half_width_of(g, got, SAMPLED, k) + smoothed_of(g, got, SAMPLED, k, 1.0);
             double most = (g->r->asked - g->o->bound) * fmax(all, 0.1 * mean);
             if (pass == 0)
                 mean += all / (double)n;
@@ -212,13 +227,34 @@ static void widen_all(const grid_run_state *g, grid_result *r)
         widen(g, r->moments[h].illuminance, r->moments[h].half_width);
 }
 
-/* What of all undimmed light at sensor k is of layer l. */
+/* What layer l, undimmed, is of all light as dimmed at sensor k. */
 static double share_of_layer(const grid_result *r, int l, size_t k)
 {
-    double all = 0.0;
-    for (int i = 0; i < r->layer_count; i++)
-        all += r->layers[i].illuminance[k];
-    return all > 0.0 ? r->layers[l].illuminance[k] / all : 1.0;
+    return r->illuminance[k] > 0.0 ? r->layers[l].illuminance[k] / r->illuminance[k] : 0.0;
+}
+
+/* What of the light of all moments together at sensor k is that of moment h, at most: what they
+ * share, as lamps that are always on, is no more than the least of them. */
+static double share_of_moment(const grid_result *r, int h, size_t k)
+{
+    double sum = 0.0, least = HUGE_VAL;
+    for (int i = 0; i < r->moment_count; i++) {
+        sum += r->moments[i].illuminance[k];
+        least = fmin(least, r->moments[i].illuminance[k]);
+    }
+    double all = sum - (r->moment_count - 1) * least;
+    return all > 0.0 ? r->moments[h].illuminance[k] / all : 0.0;
+}
+
+static void widen_by_smoothing(const grid_run_state *g, const accuracy_result *got, grid_result *r,
+                               size_t k)
+{
+    for (int l = 0; l < r->layer_count; l++)
+        r->layers[l].half_width[k] += smoothed_of(g, got, LAYERS + l, k, share_of_layer(r, l, k));
+    for (int h = 0; h < r->moment_count; h++)
+        r->moments[h].half_width[k] += smoothed_of(g, got, h, k, share_of_moment(r, h, k));
+    double share = r->moment_count ? share_of_moment(r, 0, k) : 1.0;
+    r->half_width[k] += smoothed_of(g, got, SAMPLED, k, share);
 }
 
 static double mean_bound(const grid_run_state *g)
@@ -229,16 +265,21 @@ static double mean_bound(const grid_run_state *g)
     return sum / g->r->sensor_count;
 }
 
-/* How far off what maps smooth may make the average: `focused`, by squares about sensors; or else
- * by cells of surfaces. */
-static double mean_smoothed(const grid_run_state *g, const accuracy_result *got, bool focused)
+/* How far off what cells, or squares, smooth may make the average: of many squares those count as
+ * they are that happen to tell too little. */
+static double mean_smoothed_by_cells(const grid_run_state *g, const accuracy_result *got)
 {
     double sum = 0.0;
-    for (int k = 0; k < g->r->sensor_count && g->channels.smoothed >= 0; k++) {
-        double of_squares = g->maps.focused ? grid_smoothed_by_square(g, k) : 0.0;
-        double all        = mean_of(g, got, g->channels.smoothed, (size_t)k);
-        sum += STEPS_SMOOTHED * fabs(focused ? of_squares : all - of_squares);
-    }
+    for (int k = 0; k < g->r->sensor_count; k++)
+        sum += smoothed_by_cells(g, got, (size_t)k);
+    return sum / g->r->sensor_count;
+}
+
+static double mean_smoothed_by_squares(const grid_run_state *g)
+{
+    double sum = 0.0;
+    for (int k = 0; g->focus && k < g->r->sensor_count; k++)
+        sum += g->focus[k].own;
     return sum / g->r->sensor_count;
 }
 
@@ -256,14 +297,13 @@ static void take_classes(const grid_run_state *g, const accuracy_result *got, gr
             r->classes[c].average += mean_of(g, got, g->channels.classes + c, k) / (double)n;
         r->classes[c].half_width += got->of_average[g->channels.classes + c];
     }
-    r->classes[CLASS_REFLECTED].half_width += mean_smoothed(g, got, false);
-    r->classes[CLASS_FOCUSED].half_width += mean_smoothed(g, got, true);
+    r->classes[CLASS_REFLECTED].half_width += mean_smoothed_by_cells(g, got);
+    r->classes[CLASS_FOCUSED].half_width += mean_smoothed_by_squares(g);
 }
 
 void grid_take_results(const grid_run_state *g, const accuracy_result *got, grid_result *r)
 {
     const grid_channels *c = &g->channels;
-    double smoothed        = 0.0;
     take_classes(g, got, r);
     for (size_t k = 0; k < (size_t)r->sensor_count; k++) {
         double all = mean_of(g, got, SAMPLED, k);
@@ -276,14 +316,10 @@ void grid_take_results(const grid_run_state *g, const accuracy_result *got, grid
             r->half_width[k]  = half_width_of(g, got, SAMPLED, k);
             take_layers(g, got, k);
         }
-        double off =
-            c->smoothed >= 0 ? STEPS_SMOOTHED * fabs(mean_of(g, got, c->smoothed, k)) : 0.0;
-        smoothed += off / r->sensor_count;
-        r->half_width[k] += off;
-        for (int l = 0; l < r->layer_count; l++)
-            r->layers[l].half_width[k] += off * share_of_layer(r, l, k);
-        for (int h = 0; h < g->moments; h++)
-            r->moments[h].half_width[k] += off;
+        if (r->smooth)
+            r->smooth[k] = smoothed_of(g, got, SAMPLED, k, 1.0);
+        if (!g->o->pilot)
+            widen_by_smoothing(g, got, r, k);
         r->indirect[k]    = fmax(r->illuminance[k] - r->direct[k], 0.0);
         r->illuminance[k] = r->direct[k] + r->indirect[k];
         if (r->outside)
@@ -292,6 +328,7 @@ void grid_take_results(const grid_run_state *g, const accuracy_result *got, grid
             r->electric[k] += mean_of(g, got, c->electric, k);
     }
     r->smoothed           = got && c->smoothed >= 0;
-    r->average_half_width = mean_bound(g) + (got ? got->of_average[SAMPLED] : 0.0) + smoothed;
+    r->average_half_width = mean_bound(g) + (got ? got->of_average[SAMPLED] : 0.0) +
+                            mean_smoothed_by_cells(g, got) + mean_smoothed_by_squares(g);
     widen_all(g, r);
 }

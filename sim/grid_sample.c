@@ -234,9 +234,8 @@ static void put(const grid_run_state *g, const thread_scratch *w, int i, float a
         values[FULL * BUNDLE + i] = full;
 }
 
-/* lx, of all light that maps of focused light know at a sensor; of each layer, too. */
-static float focused_at(const grid_run_state *g, thread_scratch *w, int i, const sample_id *id,
-                        float *smoothed)
+/* lx, of all light that maps of focused light know at a sensor, as dimmed; of each layer, too. */
+static float focused_at(const grid_run_state *g, thread_scratch *w, int i, const sample_id *id)
 {
     const scene *s       = g->s;
     const path_bundle *b = &w->bundle;
@@ -245,12 +244,10 @@ static float focused_at(const grid_run_state *g, thread_scratch *w, int i, const
         vec3 coarse, fine = illumination_map_at_sensor(g->maps.focused, (int)id->item,
                                                        (int)b->set[i], l, &coarse);
         float lux    = (float)LUMENS_PER_WATT * rgb_luminance(fine);
-        float off    = lux - (float)LUMENS_PER_WATT * rgb_luminance(coarse);
         float dimmed = l < 0 ? 1.0f : scene_dimming_of_group(s, l);
         if (l >= 0)
             w->of_layer[l] += lux;
         all += dimmed * lux;
-        *smoothed += dimmed * off;
     }
     return all;
 }
@@ -279,7 +276,7 @@ static void take_sample(const grid_run_state *g, thread_scratch *w, int i, const
     float reflected = lux_of(&b->indirect, i);
     float mirrored  = b->mirrored ? lux_of(b->mirrored, i) : 0.0f;
     float smoothed  = b->smoothed ? (float)LUMENS_PER_WATT * b->smoothed[i] : 0.0f;
-    float focused   = g->maps.focused ? focused_at(g, w, i, id, &smoothed) : 0.0f;
+    float focused   = g->maps.focused ? focused_at(g, w, i, id) : 0.0f;
     if (c->smoothed >= 0)
         values[c->smoothed * BUNDLE + i] = smoothed;
     put(g, w, i, straight + reflected + focused, straight, values);

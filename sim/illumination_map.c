@@ -19,9 +19,8 @@ enum {
     PILOT_SHARE      = 8,         /* one pilot for so many particles */
     ENOUGH_MARKS     = 1 << 20,   /* that pilots leave, however few they are */
     LEAST_CHUNKS     = 4,         /* of a set, whose particles are deposited once each */
-    MOST_CHUNKS      = 1 << 12,
-    CELL_PARTICLES   = 512, /* that a cell gets at most, where memory allows */
-    FEWEST_PARTICLES = 32,  /* that a sheet is to get to have cells */
+    CELL_PARTICLES   = 512,       /* that a cell gets at most, where memory allows */
+    FEWEST_PARTICLES = 32,        /* that a sheet is to get to have cells */
 };
 static const double most_bytes   = 768e6; /* of values while they are added up */
 static const double gather_share = 0.5;   /* of the accuracy: the maps' noise in a gather */
@@ -120,8 +119,10 @@ static bool send_pilots(map_run *r, size_t count, map_list *marks, lux_error *er
  * 2 (sum w^2 / (sum w)^2) = 2 c / n of its square:
  *
  *     n = 2 c / (accuracy / 2)^2          on pi d^2, hence n A / (pi d^2) in all
+ *
+ * for an accuracy of 1; 0: it is dark.
  */
-static int64_t particles_for(const map_run *r, const map_growth *g)
+static double particles_for_one(const map_run *r, const map_growth *g)
 {
     double sum = 0.0, square = 0.0, count = (double)g->mark_count;
     for (size_t i = 0; i < g->mark_count; i++) {
@@ -129,18 +130,19 @@ static int64_t particles_for(const map_run *r, const map_growth *g)
         sum += w;
         square += w * w;
     }
-    double pilots = (double)r->first * MAP_BATCH;
-    double each   = fmax(1.0, count / pilots); /* deposits of a particle */
-    int64_t least = (int64_t)(LEAST_CHUNKS / each * MAP_BATCH * SCRAMBLES);
     if (!(sum > 0.0))
-        return least;
-    double noise = gather_share * r->o->accuracy;
-    double n     = 2.0 * count * square / (sum * sum) / (noise * noise);
+        return 0.0;
+    double n     = 2.0 * count * square / (sum * sum) / (gather_share * gather_share);
     double seen  = r->all.ways > 0 ? M_PI * r->all.way2 / (double)r->all.ways : HUGE_VAL;
     double rooms = fmax(1.0, map_lit_area(g, &r->m->cells) / seen);
-    double want  = n * rooms * pilots / count;
-    double most  = (double)MOST_CHUNKS * MAP_BATCH * SCRAMBLES;
-    return want < most ? (want > (double)least ? (int64_t)want : least) : (int64_t)most;
+    return n * rooms * (double)r->first * MAP_BATCH / count;
+}
+
+static int64_t particles_for(const illumination_map *m, double accuracy)
+{
+    double least = LEAST_CHUNKS / fmax(1.0, m->deposits) * MAP_BATCH * SCRAMBLES;
+    double most  = (double)MAP_MOST_PARTICLES;
+    return (int64_t)fmin(fmax(m->calls_for / (accuracy * accuracy), least), most);
 }
 
 /* Chunks of a set for so many particles; where the number is free a power of two, as evenness
@@ -154,6 +156,18 @@ static uint32_t chunks_for(int64_t particles, bool free)
     while (power < chunks)
         power *= 2;
     return (uint32_t)(free ? power : chunks);
+}
+
+/* Particles that find the cells of so many. */
+static double pilots_for(double particles) { return fmin(particles / PILOT_SHARE, MOST_PILOTS); }
+
+int64_t illumination_map_calls_for(const illumination_map *m, double accuracy, int64_t *pilots)
+{
+    uint32_t chunks   = chunks_for(particles_for(m, accuracy), true);
+    int64_t particles = (int64_t)chunks * MAP_BATCH * SCRAMBLES;
+    if (pilots)
+        *pilots = (int64_t)fmax(pilots_for((double)particles), FIRST_PILOTS);
+    return particles;
 }
 
 /* ---- values ---------------------------------------------------------------------------------- */
@@ -292,16 +306,18 @@ static bool find_cells(arena *a, map_run *r, map_list *marks, uint32_t *chunks, 
 {
     illumination_map *m = r->m;
     int64_t particles   = r->o->particles;
-    if (!send_pilots(r, FIRST_PILOTS, marks, err))
+    bool free           = particles <= 0;
+    size_t first        = free || particles > FIRST_PILOTS ? FIRST_PILOTS : (size_t)particles;
+    if (!send_pilots(r, first, marks, err))
         return false;
     map_growth g = { .s = m->s, .marks = marks->items, .mark_count = marks->count };
-    bool free    = particles <= 0;
+    m->calls_for = particles_for_one(r, &g);
+    m->deposits  = (double)marks->count / ((double)r->first * MAP_BATCH);
     if (free)
-        particles = particles_for(r, &g);
-    *chunks     = chunks_for(particles, free);
-    double all  = (double)*chunks * MAP_BATCH * SCRAMBLES;
-    double more = fmin(all / PILOT_SHARE, MOST_PILOTS);
-    if (!send_pilots(r, (size_t)more, marks, err))
+        particles = particles_for(m, r->o->accuracy);
+    *chunks    = chunks_for(particles, free);
+    double all = (double)*chunks * MAP_BATCH * SCRAMBLES;
+    if (!send_pilots(r, (size_t)pilots_for(all), marks, err))
         return false;
 
     double bytes = (double)m->slots * SCRAMBLES * 3 * (sizeof(float) + sizeof(double));
@@ -395,6 +411,22 @@ const illumination_map *illumination_map_new(arena *a, const scene *s, const map
         map_tracer_free(r->tracers[i]);
     arena_clear(&scratch);
     return done ? m : NULL;
+}
+
+double illumination_map_noise(const illumination_map *m)
+{
+    const double student_t = 2.1314; /* 97.5 %, of SCRAMBLES - 1 degrees of freedom */
+    double of[SCRAMBLES] = { 0 }, mean = 0.0, square = 0.0;
+    for (int32_t n = 0; n < m->cells.node_count; n++)
+        for (int set = 0; set < SCRAMBLES && m->cells.nodes[n].child == 0; set++) {
+            const float *v = m->values + map_value_at(m, (size_t)n, 0, set);
+            of[set] += m->cells.nodes[n].area * (double)rgb_luminance((vec3){ v[0], v[1], v[2] });
+        }
+    for (int set = 0; set < SCRAMBLES; set++)
+        mean += of[set] / SCRAMBLES;
+    for (int set = 0; set < SCRAMBLES; set++)
+        square += (of[set] - mean) * (of[set] - mean);
+    return mean > 0.0 ? student_t * sqrt(square / (SCRAMBLES - 1) / SCRAMBLES) / mean : 0.0;
 }
 
 map_figures illumination_map_figures(const illumination_map *m) { return m->figures; }

@@ -88,6 +88,17 @@ typedef struct map_figures {
 } map_figures;
 map_figures illumination_map_figures(const illumination_map *m);
 
+/* Of no more is a map made, whatever accuracy calls for. */
+enum { MAP_MOST_PARTICLES = 1 << 26 };
+
+/* How many particles a map for that accuracy would be made of, as the few of this one tell, which
+ * was not read; *pilots (may be NULL): how many more would find its cells. */
+int64_t illumination_map_calls_for(const illumination_map *m, double accuracy, int64_t *pilots);
+
+/* How far off all light that it holds may be, as its sets tell: half of the 95 % interval,
+ * relative. It is in all results alike. */
+double illumination_map_noise(const illumination_map *m);
+
 /* To a file, and back. A file holds the cells, values of each group undimmed, and a fingerprint of
  * all of the scene that they depend on (geometry, materials, lights but for their dimming, seed and
  * particles): read() returns NULL without an error where there is no such file or it is of another

@@ -75,7 +75,8 @@ bool light_maps_make(arena *a, const scene *s, const run_options *o, double accu
     *out = (light_maps){ 0 };
     if (o->direct_only || !s->reflects)
         return true;
-    if (scene_focuses(s) && !light_maps_focused(a, s, o, accuracy, sensors, 0, out, err))
+    if (scene_focuses(s) && !o->pilot &&
+        !light_maps_focused(a, s, o, accuracy, sensors, 0, out, err))
         return false;
     if (o->transport != TRANSPORT_MAPS || o->bounded)
         return true;

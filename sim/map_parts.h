@@ -225,9 +225,11 @@ struct illumination_map {
     map_cells cells;
     int slots; /* all light, then each group if the scene is layered */
     int sensors;
-    float *values;   /* W/m^2: of each bin, slot, set, 3 */
-    float *smoothed; /* W/m^2: of each node, slot, 3: by how much less its parent has; 0: none */
-    float *dimming;  /* of each group; NAN: its lamps differ */
+    double calls_for; /* particles, for an accuracy of 1 */
+    double deposits;  /* that one leaves, about */
+    float *values;    /* W/m^2: of each bin, slot, set, 3 */
+    float *smoothed;  /* W/m^2: of each node, slot, 3: by how much less its parent has; 0: none */
+    float *dimming;   /* of each group; NAN: its lamps differ */
     map_figures figures;
     uint64_t print[PRINTS];
 };

@@ -223,7 +223,7 @@ static void draw_directions(path_tracer *t)
         note_scattered(t, k, &next);
         if (has_mirror_images(t->s))
             leave_base(t, k, &next);
-        if (t->focused)
+        if (t->focused || t->leaves_focused)
             leave_to_maps(t, k, &next);
         store3(t, PLACE, k, vray_start(&t->at[k], &next.wi));
         store3(t, WAY, k, next.wi);

@@ -82,6 +82,9 @@ void path_use_patches(path_tracer *t, const sun_patches *patches);
 void path_use_maps(path_tracer *t, const illumination_map *indirect,
                    const illumination_map *focused);
 
+/* From now on focused light is left out, as if a map were there that holds none. */
+void path_leave_focused(path_tracer *t);
+
 /* Fills in what the paths of b find: estimates of what their sensor measures, one a path. */
 void path_trace(path_tracer *t, path_bundle *b, const path_options *o);
 

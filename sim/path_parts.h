@@ -68,6 +68,7 @@ struct path_tracer {
     const lamp_boxes *boxes;                    /* of those */
     const sun_patches *patches;                 /* NULL: no sun comes in by a portal */
     const illumination_map *indirect, *focused; /* NULL */
+    bool leaves_focused;                        /* to others, as if `focused` were there */
     int32_t *list;                              /* room for as many */
     int64_t ray_count;
     path_bundle *b;

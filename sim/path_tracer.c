@@ -69,6 +69,8 @@ void path_use_maps(path_tracer *t, const illumination_map *indirect,
     t->focused  = focused;
 }
 
+void path_leave_focused(path_tracer *t) { t->leaves_focused = true; }
+
 int64_t path_rays(const path_tracer *t) { return t->ray_count + direct_rays(t->direct); }
 
 /* ---- the sums of a bundle -------------------------------------------------------------------- */

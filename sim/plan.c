@@ -127,17 +127,6 @@ static uint32_t built_without(const decision *d)
     return off;
 }
 
-static void choose_transport(const decision *d)
-{
-    plan *p      = d->p;
-    p->transport = d->f->o->transport;
-    if (p->transport == TRANSPORT_AUTO)
-        p->transport = plan_transport(d->f, p->effects[EFFECT_INTERREFLECTION].on, p->transport_why,
-                                      sizeof p->transport_why);
-    else
-        snprintf(p->transport_why, sizeof p->transport_why, "asked for");
-}
-
 static void decide(decision *d, notices *n)
 {
     const plan_options *o = d->f->o;
@@ -156,7 +145,6 @@ static void decide(decision *d, notices *n)
             d->p->on |= 1u << e;
     for (int e = 0; e < EFFECTS; e++)
         plan_tell(d->f, (effect)e, d->called.on[e], &d->p->effects[e]);
-    choose_transport(d);
 }
 
 bool plan_make(const scene *s, const plan_options *o, plan *out, notices *n, lux_error *err)
@@ -169,6 +157,7 @@ bool plan_make(const scene *s, const plan_options *o, plan *out, notices *n, lux
         decision d    = { .f = &f, .p = out };
         out->accuracy = f.accuracy;
         decide(&d, n);
+        good             = plan_transport(&f, out, err);
         bool direct      = out->off >> EFFECT_INTERREFLECTION & 1;
         const char *weak = scene_left_to_chance(s, direct);
         if (weak)

@@ -18,7 +18,10 @@ typedef struct plan_options {
     bool series;         /* of several moments */
     uint32_t no, only;   /* bits 1 << effect that the user has named */
     bool has_only;       /* he has: all others are off; all bits: everything is forced on */
-    transport transport; /* that he asks for */
+    transport transport; /* that he asks for; of TRANSPORT_AUTO pilots tell (plan_pilot.c), */
+    uint32_t seed;       /* of this seed, */
+    int threads;         /* in so many; 0: 1. What they tell does not depend on it */
+    progress *progress;  /* NULL; only its stop counts */
 } plan_options;
 
 typedef struct plan_effect {
@@ -42,7 +45,8 @@ typedef struct plan {
 } plan;
 
 /* Searches the scene, which holds all effects. What the user forces off that the scene calls for is
- * noticed. False, with *err: a bad points file or camera, or memory is out. */
+ * noticed. False, with *err: a bad points file or camera, memory is out, or (ERR_INTERRUPTED) the
+ * user stopped it. */
 bool plan_make(const scene *s, const plan_options *o, plan *out, notices *n, lux_error *err);
 
 /* For scene_options.off; 0: the scene that was searched will do. Without interreflection, which a

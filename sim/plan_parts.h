@@ -1,6 +1,6 @@
 /* sim/plan_parts.h -- what the files of plan.h share: plan_facts.c looks at the scene,
  * plan_bounds.c says what effects are worth at most, plan_why.c tells it in words, plan_transport.c
- * chooses how interreflected light is found, plan.c decides.
+ * chooses how interreflected light is found, by what plan_pilot.c tries, plan.c decides.
  */
 #ifndef SIM_PLAN_PARTS_H
 #define SIM_PLAN_PARTS_H
@@ -41,7 +41,18 @@ double plan_bound(const plan_facts *f, effect e, bool direct);
 /* Why an effect that the scene calls for (or does not) is on or off, with numbers. */
 void plan_tell(const plan_facts *f, effect e, bool called, plan_effect *to);
 
-/* Which transport, and why, of one that is not asked for by name. */
-transport plan_transport(const plan_facts *f, bool interreflection, char *why, size_t size);
+/* Fills in out->transport and out->transport_why, by what else is planned. False, with *err: memory
+ * is out, or the user stopped it. */
+bool plan_transport(const plan_facts *f, plan *out, lux_error *err);
+
+/* Pilots: light of a few sensors or pixels, found both ways with a few samples. */
+typedef struct plan_pilot {
+    double paths, maps; /* rays to the accuracy asked for, about, as rays of paths cost */
+    bool at_once;       /* paths are there so soon that maps were not tried */
+    bool too_coarse;    /* maps for it would smooth too much, or be too noisy themselves */
+} plan_pilot;
+
+/* For an accuracy. False, with *err, as above. */
+bool plan_pilot_run(const plan_facts *f, double accuracy, plan_pilot *out, lux_error *err);
 
 #endif

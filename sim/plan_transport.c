@@ -1,43 +1,59 @@
 /* sim/plan_transport.c -- paths or maps: which reaches the accuracy asked for sooner.
  *
- * Maps cost particles once, however much is then read from them; a path costs its reflections at
- * each sensor and pixel anew. So maps pay where many places ask for light that has been reflected
- * many times, and lies on matt surfaces; a map has no moments, so that series go by paths. What is
- * outside gives light on into rooms by particles that are aimed at portals, where these are known.
+ * Where it is not plain from what is asked for and from the scene, pilots tell (plan_pilot.c). Maps
+ * smooth, and paths do not: so maps are taken only where they are sooner by more than pilots err.
  */
 #include "sim/plan_parts.h"
 
 #include <stdio.h>
 
-static const double many_sensors = 5000.0; /* of all grids */
-static const double many_pixels  = 1e5;    /* of all views */
-static const double mostly       = 0.5;    /* of the surface area is matt */
-static const double bright       = 0.4;    /* mean reflectance: three reflections to a tenth */
+static const double sooner = 1.2; /* times, at least */
 
-transport plan_transport(const plan_facts *f, bool interreflection, char *why, size_t size)
+/* Why paths are taken without a trial; NULL: there is no reason. */
+static const char *plain_reason(const plan_facts *f, const plan *p)
 {
-    const plan_materials *m = &f->materials;
-    double places           = f->o->views ? f->pixels : f->sensors;
-    const char *what        = f->o->views ? "pixels" : "sensors";
-    double least            = f->o->views ? many_pixels : many_sensors;
-    if (!interreflection)
-        snprintf(why, size, "no light comes back from surfaces");
-    else if (f->o->series)
-        snprintf(why, size, "all moments of a series are weighed from the same paths");
-    else if (places < least)
-        snprintf(why, size, "%.0f %s: maps pay from %.0f on", places, what, least);
-    else if (f->s->exteriors && f->s->portal_count == 0)
-        snprintf(why, size, "most particles of daylight would stay outside");
-    else if (m->matt_share < mostly)
-        snprintf(why, size, "%.0f %% of the surface area is not matt",
-                 100.0 * (1.0 - m->matt_share));
-    else if (m->mean < bright)
-        snprintf(why, size, "surfaces reflect %.0f %% in the mean: paths end soon",
-                 100.0 * m->mean);
-    else {
-        snprintf(why, size, "%.0f %s, surfaces reflect %.0f %% in the mean, %.0f %% of them matt",
-                 places, what, 100.0 * m->mean, 100.0 * m->matt_share);
-        return TRANSPORT_MAPS;
+    if (!p->effects[EFFECT_INTERREFLECTION].on)
+        return "no light comes back from surfaces";
+    if (f->o->series)
+        return "all moments of a series are weighed from the same paths";
+    if (!f->o->views && grid_needs_paths(f->s))
+        return "daylight is told apart from light that needs maintenance";
+    if (f->s->exteriors && f->s->portal_count == 0)
+        return "most particles of daylight would stay outside";
+    return NULL;
+}
+
+static void tell(const plan_pilot *t, double accuracy, plan *out)
+{
+    char *why          = out->transport_why;
+    const size_t size  = sizeof out->transport_why;
+    const double asked = 100.0 * accuracy;
+    if (t->at_once)
+        snprintf(why, size, "paths reach %.3g %% after about %.1g rays", asked, t->paths);
+    else if (t->too_coarse)
+        snprintf(why, size, "paths reach %.3g %% after about %.1e rays, maps would be too coarse",
+                 asked, t->paths);
+    else if (out->transport == TRANSPORT_MAPS)
+        snprintf(why, size, "maps reach %.3g %% after about %.1e rays, paths after %.1e", asked,
+                 t->maps, t->paths);
+    else
+        snprintf(why, size, "paths reach %.3g %% after about %.1e rays, maps after %.1e", asked,
+                 t->paths, t->maps);
+}
+
+bool plan_transport(const plan_facts *f, plan *out, lux_error *err)
+{
+    const char *plain = f->o->transport == TRANSPORT_AUTO ? plain_reason(f, out) : "asked for";
+    plan_pilot t      = { 0 };
+    out->transport    = f->o->transport == TRANSPORT_MAPS ? TRANSPORT_MAPS : TRANSPORT_PATH;
+    if (plain) {
+        snprintf(out->transport_why, sizeof out->transport_why, "%s", plain);
+        return true;
     }
-    return TRANSPORT_PATH;
+    if (!plan_pilot_run(f, f->accuracy - out->bound, &t, err))
+        return false;
+    if (!t.at_once && !t.too_coarse && sooner * t.maps < t.paths)
+        out->transport = TRANSPORT_MAPS;
+    tell(&t, f->accuracy, out);
+    return true;
 }

@@ -80,7 +80,8 @@ static void take_pixels(const view_run_state *v, const accuracy_result *got, vie
         out->illuminance[to] = seen > 0.0 ? (float)(mean[ILLUMINANCE * n + from] / seen) : 0.0f;
         out->distance[to]    = seen > 0.0 ? (float)(mean[DISTANCE * n + from] / seen) : 0.0f;
         out->half_width[to] =
-            (float)(got->half_width[i] + STEPS_SMOOTHED * fabs(mean[SMOOTHED * n + from]));
+            (float)(got->half_width[i] +
+                    (v->o->pilot ? 0.0 : STEPS_SMOOTHED * fabs(mean[SMOOTHED * n + from])));
         double luminance = got->mean[LUMINANCE * n + from];
         take_layers(v, got, out, from, to);
         if (luminance > 0.0)
@@ -120,6 +121,8 @@ static bool make_threads(view_run_state *v, arena *a, lux_error *err)
             return false;
         path_use_patches(w->paths, patches);
         path_use_maps(w->paths, v->maps.indirect, v->maps.focused);
+        if (v->o->pilot && scene_focuses(v->s))
+            path_leave_focused(w->paths);
     }
     return v->threads != NULL;
 }

@@ -68,24 +68,28 @@ static void trace(sun_seen *w, int packets)
 static void look(sun_seen *w, const vsurface *at, int sun, vuint set, uint32_t from, int count,
                  vmask active, vfloat *e, vfloat *open)
 {
-    for (int j = 0; j < count; j++) {
-        vsample4 u = vsobol4(vsplat_uint(from + (uint32_t)j), set);
-        begin(w, j);
-        aim(w, j, at, sun, u.x, u.y, active);
-    }
-    trace(w, count);
-    for (int j = 0; j < count; j++) {
-        *e    = *e + vkeep(w->asked[j], vrgb_luminance(w->e[j]));
-        *open = *open + vkeep(w->asked[j], vsplat(1.0f));
+    for (int done = 0, some; done < count; done += some) {
+        some = count - done < SUN_PACKETS ? count - done : SUN_PACKETS;
+        for (int j = 0; j < some; j++) {
+            vsample4 u = vsobol4(vsplat_uint(from + (uint32_t)(done + j)), set);
+            begin(w, j);
+            aim(w, j, at, sun, u.x, u.y, active);
+        }
+        trace(w, some);
+        for (int j = 0; j < some; j++) {
+            *e    = *e + vkeep(w->asked[j], vrgb_luminance(w->e[j]));
+            *open = *open + vkeep(w->asked[j], vsplat(1.0f));
+        }
     }
 }
 
 /* From the half shadow: rays double until half of the interval of e, with Student's t of 15 degrees
- * of freedom (accuracy.h), is small against what the sun would give. */
+ * of freedom (accuracy.h), is small against e, or a little of what all of the disk would give. An
+ * edge across the disk takes rays as half to the power of -4/3. */
 static void look_closely(sun_seen *w, const vsurface *at, int sun, vuint sensor, double accuracy,
                          vmask mixed, sun_look *out)
 {
-    const float student = 2.1314f, share = 0.1f * (float)accuracy;
+    const float student = 2.1314f, share = 0.25f * (float)accuracy, little = 0.02f;
     vfloat e[SCRAMBLES] = { 0 }, open[SCRAMBLES] = { 0 };
     vmask left = mixed;
     int before = 0, now = SUN_RAYS;
@@ -105,7 +109,8 @@ static void look_closely(sun_seen *w, const vsurface *at, int sun, vuint sensor,
         out->e      = vselect(left, mean, out->e);
         out->bound  = vselect(left, half, out->bound);
         out->open   = vselect(left, unhidden, out->open);
-        left        = left & (half > share * mean);
+        vfloat all  = mean * vmax(vsplat(1.0f), little / vmax(unhidden, vsplat(1e-6f)));
+        left        = left & (half > share * all);
     }
 }
 

@@ -16,7 +16,7 @@
 
 enum {
     SUN_RAYS      = 16, /* at first; 1 for a sun that is a point */
-    MOST_SUN_RAYS = 4096,
+    MOST_SUN_RAYS = 1 << 20,
     SUN_PACKETS   = 256,
 };
 

@@ -41,9 +41,9 @@ TEST(a_plan_is_a_table_with_reasons_and_closing_lines)
     assert_non_null(strstr(r.out, "1 of 1 lamp is more than a point"));
     assert_non_null(strstr(r.out, "bounds: all that is off changes results by at most 0 %; 4 % is "
                                   "allowed, a fifth of the accuracy asked for (20 %)"));
-    assert_non_null(strstr(r.out, "transport: path: 12 sensors"));
+    assert_non_null(strstr(r.out, "transport: path: paths reach 20 % after about "));
     assert_non_null(strstr(r.out, "antialiasing of views: on: 32 rays all over each pixel"));
-    assert_non_null(strstr(r.out, "transport of views: path: 48 pixels"));
+    assert_non_null(strstr(r.out, "transport of views: path: paths reach 10 % after about "));
     assert_int_equal(count_names(folder), 1);
     program_free(&r);
     folder_free(folder);

@@ -160,23 +160,36 @@ TEST(views_are_planned_for_as_views)
     arena_clear(&memory);
 }
 
-/* Few sensors and dull rooms go by paths, whatever the user does not say. */
-TEST(transport_is_chosen_by_places_and_surfaces)
+/* Some samples of paths are drawn where nothing else decides (tests/physics/test_plan_pilot.c). */
+TEST(transport_is_told_with_its_reason)
 {
     plan p;
     plan_of(ROOM("0.5") POINT GRID, (plan_options){ 0 }, &p);
     assert_int_equal(p.transport, TRANSPORT_PATH);
+    assert_non_null(strstr(p.transport_why, "paths reach 2 % after about "));
     plan_of(ROOM("0.5") POINT GRID, (plan_options){ .transport = TRANSPORT_MAPS }, &p);
     assert_int_equal(p.transport, TRANSPORT_MAPS);
     assert_string_equal(p.transport_why, "asked for");
-    plan_of(ROOM("0.5") POINT "grids: [{name: g, origin: [0.5, 0.5, 0.5], u: [3, 0, 0], v: [0, 2, "
-                              "0], spacing: 0.025}]\n",
-            (plan_options){ 0 }, &p);
-    assert_int_equal(p.transport, TRANSPORT_MAPS);
-    plan_of(ROOM("0.1") POINT "grids: [{name: g, origin: [0.5, 0.5, 0.5], u: [3, 0, 0], v: [0, 2, "
-                              "0], spacing: 0.025}]\n",
-            (plan_options){ 0 }, &p);
+    plan_of(ROOM("0.5") POINT GRID, (plan_options){ .series = true }, &p);
     assert_int_equal(p.transport, TRANSPORT_PATH);
+    assert_string_equal(p.transport_why, "all moments of a series are weighed from the same paths");
+    plan_of(ROOM("0") POINT GRID, (plan_options){ 0 }, &p);
+    assert_string_equal(p.transport_why, "no light comes back from surfaces");
+    arena_clear(&memory);
+}
+
+#define DAY                                                                                        \
+    "site: {place: \"55N 37E\", zone: Europe/Moscow}\nwhen: 2026-06-21T12:00\n"                    \
+    "sky: {model: overcast}\nmaintenance: 0.8\n"
+
+TEST(daylight_beside_maintained_light_goes_by_paths)
+{
+    plan p;
+    const scene *s = plan_of(ROOM("0.5") POINT GRID DAY, (plan_options){ 0 }, &p);
+    assert_true(grid_needs_paths(s));
+    assert_int_equal(p.transport, TRANSPORT_PATH);
+    assert_string_equal(p.transport_why,
+                        "daylight is told apart from light that needs maintenance");
     arena_clear(&memory);
 }
 
@@ -199,7 +212,8 @@ int main(void)
         cmocka_unit_test(reasons_count_what_they_name),
         cmocka_unit_test(bounds_stay_below_a_fifth_of_the_accuracy),
         cmocka_unit_test(views_are_planned_for_as_views),
-        cmocka_unit_test(transport_is_chosen_by_places_and_surfaces),
+        cmocka_unit_test(transport_is_told_with_its_reason),
+        cmocka_unit_test(daylight_beside_maintained_light_goes_by_paths),
         cmocka_unit_test(effects_are_found_by_their_whole_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

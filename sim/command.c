@@ -33,6 +33,7 @@ plan_options command_plan_options(const command_context *c, bool views)
                            .transport   = l->maps ? TRANSPORT_MAPS : l->transport,
                            .seed        = l->seed,
                            .threads     = command_threads(c),
+                           .seconds     = isnan(l->seconds) ? 0.0 : l->seconds,
                            .progress    = c->progress };
 }
 

@@ -21,6 +21,7 @@ typedef struct plan_options {
     transport transport; /* that he asks for; of TRANSPORT_AUTO pilots tell (plan_pilot.c), */
     uint32_t seed;       /* of this seed, */
     int threads;         /* in so many; 0: 1. What they tell does not depend on it */
+    double seconds;      /* that the run may take; 0: as many as it takes */
     progress *progress;  /* NULL; only its stop counts */
 } plan_options;
 

@@ -40,6 +40,8 @@ enum {
 
 static const double at_once      = 2e6; /* rays: about two seconds, maps take one in any case */
 static const double particle_ray = 2.0; /* rays of paths: measured, growing cells included */
+static const double worth_a_map  = 3.0; /* times what a pilot of maps costs: else it is not made */
+static const double speed        = 1e6; /* rays/s, about: of what a run may take at most */
 static const double least_slope  = 0.5; /* of independent samples */
 static const double most_slope   = 0.7;
 static const double least_left   = 0.6;  /* of variance, beside noise that all of a map has */
@@ -57,13 +59,14 @@ typedef struct pilot {
     const plan_facts *f;
     arena *a;
     run_options o;
-    int places, step; /* grids or views, of which each so many are tried */
-    double sensors;   /* of those that are tried */
-    int samples;      /* an item */
-    double needed;    /* of all items, as accurate as asked for */
-    double least;     /* samples of a run, an item */
-    double smooths;   /* what of the smoothing seen would stay if samples were many */
-    double slope;     /* half widths fall with samples to the power of minus that */
+    int places, step;     /* grids or views, of which each so many are tried */
+    double sensors;       /* of those that are tried */
+    int samples;          /* an item */
+    double needed;        /* of all items, as accurate as asked for */
+    double least;         /* samples of a run, an item */
+    double smooths;       /* what of the smoothing seen would stay if samples were many */
+    double slope;         /* half widths fall with samples to the power of minus that */
+    double drawn, traced; /* samples of paths, and their rays */
     pilot_item *items;
     int count, room;
 } pilot;
@@ -105,6 +108,8 @@ static bool try_grid(pilot *p, arena *scratch, int i, lux_error *err)
         return false;
     if (r.end == RUN_INTERRUPTED)
         return interrupted(err);
+    p->drawn += (double)r.sensor_count * p->o.only_samples;
+    p->traced += (double)(r.rays - r.known_rays);
     double stands_for = f->grids[i].sensor_count * f->sensors / p->sensors / r.sensor_count;
     double rays       = (double)(r.rays - r.known_rays) / ((double)r.sensor_count * p->samples);
     double noise      = p->o.indirect ? illumination_map_noise(p->o.indirect) : 0.0;
@@ -131,7 +136,9 @@ static bool try_view(pilot *p, arena *scratch, int i, lux_error *err)
         return false;
     if (r.end == RUN_INTERRUPTED)
         return interrupted(err);
-    int n       = r.width * r.height;
+    int n = r.width * r.height;
+    p->drawn += (double)n * p->o.only_samples;
+    p->traced += (double)r.rays;
     double rays = (double)r.rays / ((double)n * p->samples) * pixels / n * p->step;
     for (int k = 0; k < n; k++) {
         vec3 l        = { r.radiance[0][k], r.radiance[1][k], r.radiance[2][k] };
@@ -323,6 +330,15 @@ static void share_out(pilot *p)
     p->o.most_sensors = each;
 }
 
+/* Whether a pilot of maps, whose particles go as far as paths, is not worth its rays; or the run
+ * has no time for it. */
+static bool is_soon(const pilot *p, double paths)
+{
+    double rays = 2.0 * PARTICLES * particle_ray * p->traced / fmax(p->drawn, 1.0);
+    double most = p->f->o->seconds > 0.0 ? speed * p->f->o->seconds : HUGE_VAL;
+    return fmin(paths, most) <= fmax(at_once, worth_a_map * rays);
+}
+
 bool plan_pilot_run(const plan_facts *f, double accuracy, plan_pilot *out, lux_error *err)
 {
     arena a        = { 0 };
@@ -343,7 +359,7 @@ bool plan_pilot_run(const plan_facts *f, double accuracy, plan_pilot *out, lux_e
     *out            = (plan_pilot){ .at_once = true };
     if (good) {
         out->paths = rays_for(&p, of_parts * accuracy * (scene_focuses(f->s) ? to_maps : 1.0), 1.0);
-        out->at_once = out->paths <= at_once;
+        out->at_once = is_soon(&p, out->paths);
     }
     if (good && !out->at_once)
         good = try_maps(&p, accuracy, of_parts * to_maps, out, err);

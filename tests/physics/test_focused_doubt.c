@@ -1,7 +1,7 @@
 /* tests/physics/test_focused_doubt.c -- focused light of which a sensor's own square tells too
  * little.
  *
- * A tube of 16 panes around a lamp sends the same light to each of 16 sensors on a ring below.
+ * A tube of 48 panes around a lamp sends the same light to each of 16 sensors on a ring below.
  */
 #include "tests/folder.h"
 #include "tests/gltf_text.h"
@@ -10,22 +10,25 @@
 
 #include <stdio.h>
 
-enum { ROUND = 16 };
+enum { ROUND = 16, PANES = 48 };
 static const double tube = 0.1, low = 1.8, high = 2.2; /* m: radius, ends */
 
+/* turn: of a whole one */
 static dvec3 on_ring(double radius, double z, double turn)
 {
-    double angle = 2.0 * M_PI * turn / ROUND;
-    return (dvec3){ radius * cos(angle), radius * sin(angle), z };
+    double angle = 2.0 * M_PI * turn;
+    return (dvec3){ 2.0 + radius * cos(angle), 2.0 + radius * sin(angle), z };
 }
 
 static void write_tube(lab *l)
 {
-    quad side[ROUND];
-    for (int i = 0; i < ROUND; i++)
-        side[i] = (quad){ { on_ring(tube, low, i), on_ring(tube, low, i + 1),
-                            on_ring(tube, high, i + 1), on_ring(tube, high, i) } };
-    lab_quads(l, "tube.gltf", side, ROUND, "\"name\":\"Tube\"");
+    quad side[PANES];
+    for (int i = 0; i < PANES; i++) {
+        double from = (double)i / PANES, to = (i + 1.0) / PANES;
+        side[i] = (quad){ { on_ring(tube, low, from), on_ring(tube, low, to),
+                            on_ring(tube, high, to), on_ring(tube, high, from) } };
+    }
+    lab_quads(l, "tube.gltf", side, PANES, "\"name\":\"Tube\"");
 }
 
 /* More is asked for than maps reach, which is when squares were made so small that particles missed
@@ -37,12 +40,13 @@ TEST(who_asks_for_too_much_of_a_tube_of_glass_has_intervals_that_hold_all_the_sa
     write_tube(&l);
     lab_probe ring[ROUND];
     for (int i = 0; i < ROUND; i++)
-        ring[i] = (lab_probe){ on_ring(1.2, 0.0, i), { 0, 0, 1 } };
+        ring[i] = (lab_probe){ on_ring(1.2, 0.0, (double)i / ROUND), { 0, 0, 1 } };
     grid_result r;
     lab_measure(&l,
-                "scene: tube.gltf\nmaterials: [{match: Tube, transmittance: 0.8}]\n"
-                "lights: [{type: disk, at: [0, 0, 2], radius: 0.05, lumens: 1000}]\n",
-                NULL, ring, ROUND, &(run_options){ .accuracy = 0.003, .threads = 2 }, &r);
+                "room: {size: [4, 4, 3], reflectance: 0}\nscene: tube.gltf\n"
+                "materials: [{match: Tube, transmittance: 0.8}]\n"
+                "lights: [{type: disk, at: [2, 2, 2], radius: 0.05, lumens: 1000}]\n",
+                NULL, ring, ROUND, &(run_options){ .accuracy = 0.01, .threads = 2 }, &r);
     assert_true(r.classes[CLASS_FOCUSED].average > 0.03 * r.average);
     assert_int_equal(r.end, RUN_HELD_UP);
     int missed = 0;
@@ -61,7 +65,7 @@ static void layers_of(lab *l, const char *dimming, grid_result *out)
               "lux4: 1\nscene: ball.gltf\ndimming: %s\n"
               "lights:\n  - {type: point, at: [0, 0, 3], lumens: 1000, group: a}\n"
               "  - {type: point, at: [1, 0, 2.5], lumens: 300, group: b}\n"
-              "grids: [{name: g, origin: [-1, -1, 0], u: [2, 0, 0], v: [0, 2, 0], spacing: 0.5}]\n",
+              "grids: [{name: g, origin: [-1, -1, 0], u: [2, 0, 0], v: [0, 2, 0], spacing: 0.7}]\n",
               dimming);
     snprintf(path, sizeof path, "%s/study.yaml", l->folder);
     const study *of = study_read(&l->a, path, NULL, NULL, &err);
@@ -70,14 +74,14 @@ static void layers_of(lab *l, const char *dimming, grid_result *out)
            : NULL;
     if (!s)
         fail_msg("%s", err.text);
-    grid_of_scene(&l->a, s, 0, &(run_options){ .accuracy = 0.2, .seed = 3, .threads = 2 }, out);
+    grid_of_scene(&l->a, s, 0, &(run_options){ .accuracy = 0.5, .seed = 3, .threads = 2 }, out);
 }
 
 TEST(how_groups_are_dimmed_changes_nothing_of_the_focused_light_of_each)
 {
     lab l;
     lab_open(&l);
-    lab_sphere(&l, "ball.gltf", (dvec3){ 0, 0, 1 }, 0.4, 24,
+    lab_sphere(&l, "ball.gltf", (dvec3){ 0, 0, 1 }, 0.4, 12,
                "\"name\":\"Ball\",\"pbrMetallicRoughness\":{\"metallicFactor\":0,"
                "\"roughnessFactor\":0},\"extensions\":{\"KHR_materials_transmission\":{"
                "\"transmissionFactor\":1},\"KHR_materials_volume\":{\"thicknessFactor\":1}}");

@@ -97,6 +97,7 @@ static bool say_what_surfaces_do(const scene_build *b, scene *s)
         s->hollow |= material_is_hollow(s->materials[i]);
         s->narrow |= !s->materials[i]->matt;
         s->solids |= s->materials[i]->solid;
+        s->smoothed |= m->smoothed;
     }
     s->material_does = does;
     if (does && !scene_find_lenses(s, does, b->err))

@@ -32,6 +32,7 @@ typedef struct scene_material {
     double there;         /* [0, 1]: the share of it that is no hole */
     bool textured, bumpy; /* it has textures; a normal map */
     bool holes, box;      /* it has holes; of closed boxes of glass, each taken as one pane */
+    bool smoothed;        /* a solid of rough glass, whose border is taken as smooth */
     bool overridden;      /* by the study's materials */
     bool exterior;        /* of what the study says is outside */
     bool used;            /* some surface is made of it */
@@ -165,6 +166,7 @@ typedef struct scene {
     bool smooth;                  /* some mesh has normals of its own, */
     bool hollow;                  /* some let light straight through, */
     bool solids;                  /* some of those are solids that refract, */
+    bool smoothed;                /* of these some are rough, and taken as smooth, */
     bool narrow;                  /* some are not matt: rays find lamps by way of them */
 
     bool grey; /* paths find the same in all three channels, and one is computed: all that is met,

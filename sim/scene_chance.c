@@ -325,6 +325,8 @@ int scene_small_patches(const scene *s, notices *n)
 const char *scene_left_to_chance(const scene *s, bool direct_only)
 {
     bool plates = s->solids && (s->light_count > 0 || s->emitter_count > 0);
+    if (s->smoothed)
+        return "solids of rough glass are taken as clear: what they scatter goes elsewhere";
     if (direct_only)
         return plates ? "light that bends in solids of glass is taken to pass them straight" : NULL;
     if (s->reflects && s->small_patches > 0)

@@ -139,7 +139,7 @@ static const material *make_straight(scene_build *b, const material_source *s, v
 
 static bool is_asked_for(const scene_build *b, effect e) { return b->options->on >> e & 1; }
 
-static const material *make_solid(scene_build *b, const material_source *s)
+static const material *make_solid(scene_build *b, const material_source *s, scene_material *info)
 {
     const gltf_material *m     = s->from;
     const material_textures *t = textures_of(m);
@@ -155,8 +155,8 @@ static const material *make_solid(scene_build *b, const material_source *s)
     bool acts = m->ior > 1.0f || !is_black(d.absorption);
     if (is_left_out(b, EFFECT_REFRACTION) || (!acts && !is_asked_for(b, EFFECT_REFRACTION)))
         return make_straight(b, s, d.tint);
-    tell(b, s, m->roughness >= smooth || t->surface.texture,
-         "the rough border of a solid is taken as smooth");
+    info->smoothed = m->roughness >= smooth || t->surface.texture;
+    tell(b, s, info->smoothed, "the rough border of a solid is taken as smooth");
     tell(b, s, clearness(m) < 1.0f || t->transmission.texture,
          "a solid that is clear in part: what does not enter it is taken as lost");
     return material_dielectric(b->a, &d, b->err);
@@ -206,7 +206,7 @@ const material *material_of_gltf(scene_build *b, const material_source *s, scene
     if (is_matt(s->from))
         return make_matt(b, s);
     if (is_solid(s->from))
-        return make_solid(b, s);
+        return make_solid(b, s, info);
     if (gltf_material_is_pane(s->from))
         return make_pane(b, s, info);
     return make_gloss(b, s);
